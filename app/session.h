@@ -48,11 +48,15 @@ struct session_options {
     // that may go on beside that. NULL: nothing.
     void (*on_text)(void *context);
     void *on_text_context;
-    bool pixels_later;         // session_load need not wait for the background's pixels: session_settle does
+    bool whole_picture; // all its pixels are needed at once: more than SESSION_PIXELS_MOST are an error
+    bool pixels_later;  // session_load need not wait for the background's pixels: session_settle does
     struct timeline *timeline; // may be NULL
     bool judged; // the caller judges the findings by policy and comments (app/check.h): they are not yet
                  // sorted
 };
+
+// Most pixels of a picture, or of a part of one, that is held in memory as a whole.
+#define SESSION_PIXELS_MOST 67108864
 
 // Most samples of a pixel where session_options.error is given, and neither scene nor options say enough.
 #define SESSION_SAMPLES_MOST 1024
@@ -91,6 +95,8 @@ void session_finish(struct session *session);
 // The rest of a session_load that did not wait for pixels, with what it reports. Does nothing after one that
 // did. A sink that the caller exchanged meanwhile must be in its place again.
 void session_settle(struct session *session);
+// Reports that the picture has more pixels than can be held at once.
+void session_report_pixels(struct session *session);
 // What is reported about a scene file that cannot be read.
 enum diag_code session_file_code(enum file_status status);
 // What reads meshes and images of the loaded scene; it points into the session.

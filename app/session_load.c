@@ -170,6 +170,28 @@ static void finish_load(void *context) {
     session_lint(session);
 }
 
+void session_report_pixels(struct session *session) {
+    const struct ir_image *scene = &session->scene->image, *image = session->image;
+    const bool is_written = image->width == scene->width && image->height == scene->height;
+    diag_add(&session->sink, DIAG_TOO_MANY_PIXELS,
+             is_written ? ir_place_label(&session->origin, &scene->head) : SPAN_NONE,
+             "the picture has %d x %d, that is %lld pixels; at most %d can be held at once", image->width,
+             image->height, (long long)image->width * image->height, SESSION_PIXELS_MOST);
+    diag_help(&session->sink,
+              image->error > 0 ? "give all pixels the same samples, without 'error', or choose a smaller size"
+                               : "choose a smaller size; 'glint render' writes large pictures in bands");
+}
+
+// Pictures are rendered in bands unless all pixels are needed at once: by who loads the scene, or by pixels
+// that end by their error, which is stated of all of them.
+static void check_pixels(struct session *session) {
+    const struct ir_image *scene = &session->scene->image, *image = session->image;
+    const int64_t pixels = (int64_t)image->width * image->height;
+    const bool is_told = scene->error > 0 && (int64_t)scene->width * scene->height > SESSION_PIXELS_MOST;
+    if (pixels > SESSION_PIXELS_MOST && !is_told && (session->options.whole_picture || image->error > 0))
+        session_report_pixels(session);
+}
+
 static void take_image_options(struct session *session) {
     struct ir_image *image = ARENA_NEW(&session->arena, struct ir_image);
     *image = session->scene->image;
@@ -188,6 +210,7 @@ static void take_image_options(struct session *session) {
         image->error = 0;
     session->unused_error = image->error > 0 ? 0 : session->scene->image.error;
     session->image = image;
+    check_pixels(session);
 }
 
 // What is loaded from the path.

@@ -59,6 +59,28 @@ static void show(const void *context, const float *linear, size_t pixels, float 
     image_to_displayed(linear, pixels, *display, shown);
 }
 
+// At a part of the picture.
+static void aim(struct shot *shot) {
+    const struct shot_region *region = &shot->wish.region;
+    struct render_settings *settings = &shot->settings;
+    settings->whole_width = settings->width;
+    settings->whole_height = settings->height;
+    settings->first_x = region->x;
+    settings->first_y = region->y;
+    settings->width = region->width;
+    settings->height = region->height;
+}
+
+bool shot_fits(struct session *session, const struct shot_region *region) {
+    const struct ir_image *image = session->image;
+    const uint64_t pixels = region && region->width ? (uint64_t)region->width * region->height
+                                                    : (uint64_t)image->width * (uint64_t)image->height;
+    if (pixels <= SESSION_PIXELS_MOST)
+        return true;
+    session_report_pixels(session);
+    return false;
+}
+
 void shot_set_up(struct shot *shot) {
     const struct session *session = shot->session;
     shot->settings = render_settings_of(&session->resolved, &shot->flat, &session->options.limits);
@@ -72,6 +94,8 @@ void shot_set_up(struct shot *shot) {
     shot->settings.show_context = &shot->display;
     shot->settings.counts = shot->wish.counts;
     shot->settings.timeline = session->options.timeline;
+    if (shot->wish.region.width)
+        aim(shot);
 }
 
 // The scene is on the device if a trial left it there.
@@ -92,7 +116,8 @@ static enum shot_status open_shot(struct shot *shot, uint32_t camera) {
     struct precision_gains gains;
     if (!session_view(shot->session, camera, &shot->view))
         return shot_no_memory(shot->session, "the view");
-    if (!where_camera_fits(shot->session, camera, &shot->view))
+    if (!where_camera_fits(shot->session, camera, &shot->view) ||
+        !shot_fits(shot->session, &shot->wish.region))
         return SHOT_SCENE;
     enum shot_status status = flatten_shot(&opening, &gains);
     if (status != SHOT_OK)
@@ -137,7 +162,8 @@ enum shot_status shot_turn(struct shot *shot, uint32_t camera) {
                : where_camera_fits(session, camera, &shot->view) ? SHOT_OK
                                                                  : SHOT_SCENE;
     struct gpu *gpu = shot->gpu;
-    const struct shot_wish wish = {.counts = shot->wish.counts,
+    const struct shot_wish wish = {.region = shot->wish.region,
+                                   .counts = shot->wish.counts,
                                    .audits = shot->wish.audits,
                                    .copies = shot->wish.copies,
                                    .keep = shot->wish.keep};
@@ -156,8 +182,8 @@ static void report_fault(struct shot *shot, enum render_fault_kind kind, const s
                                                                                     : DIAG_PATH_SEGMENTS,
                                                 .words = fault->is_nested ? WHERE_NESTED : words[kind],
                                                 .pixels = fault->pixels,
-                                                .x = shot->settings.first_x + fault->x,
-                                                .y = shot->settings.first_y + fault->y,
+                                                .x = fault->x,
+                                                .y = fault->y,
                                                 .body = fault->has_body ? fault->body : HIT_NONE,
                                                 .triangle = fault->triangle});
     if (fault->is_nested)
@@ -166,11 +192,17 @@ static void report_fault(struct shot *shot, enum render_fault_kind kind, const s
         diag_help(&s->sink,
                   "they are magenta in PNG and HDR, and NaN in PFM; 'glint pick SCENE %u,%u' shows what "
                   "happens there",
-                  shot->settings.first_x + fault->x, shot->settings.first_y + fault->y);
+                  fault->x, fault->y);
     if (kind == RENDER_SEGMENTS)
         diag_help(
             &s->sink,
             "lower trace.max_depth, raise trace.min_weight, or raise the limit with --limit path-segments=N");
+}
+
+void shot_report_faults(struct shot *shot, const struct render_fault faults[RENDER_FAULT_KINDS]) {
+    for (int kind = RENDER_NOT_FINITE; kind < RENDER_FAULT_KINDS; kind++)
+        if (faults[kind].pixels)
+            report_fault(shot, (enum render_fault_kind)kind, &faults[kind]);
 }
 
 enum shot_status shot_take(struct shot *shot, struct image *image, const struct render_progress *progress,
@@ -178,15 +210,31 @@ enum shot_status shot_take(struct shot *shot, struct image *image, const struct 
     return shot_take_until(shot, image, progress, NULL, statistics);
 }
 
+static enum shot_status take(struct shot *shot, struct image *image, const struct render_progress *progress,
+                             const struct render_limit *limit, struct render_statistics *statistics) {
+    const enum render_result result =
+        renderer_render_until(shot->renderer, &shot->view.camera, image->rgb, progress, limit, statistics);
+    return result == RENDER_DONE ? SHOT_OK : result == RENDER_CANCELLED ? SHOT_CANCELLED : SHOT_DEVICE;
+}
+
+enum shot_status shot_take_silently(struct shot *shot, struct image *image,
+                                    const struct render_progress *progress,
+                                    struct render_statistics *statistics) {
+    return take(shot, image, progress, NULL, statistics);
+}
+
 enum shot_status shot_take_until(struct shot *shot, struct image *image,
                                  const struct render_progress *progress, const struct render_limit *limit,
                                  struct render_statistics *statistics) {
-    enum render_result result =
-        renderer_render_until(shot->renderer, &shot->view.camera, image->rgb, progress, limit, statistics);
-    if (result != RENDER_DONE)
-        return result == RENDER_CANCELLED ? SHOT_CANCELLED : SHOT_DEVICE;
-    for (int kind = RENDER_NOT_FINITE; kind < RENDER_FAULT_KINDS; kind++)
-        if (statistics->faults[kind].pixels)
-            report_fault(shot, (enum render_fault_kind)kind, &statistics->faults[kind]);
+    const enum shot_status status = take(shot, image, progress, limit, statistics);
+    struct render_fault faults[RENDER_FAULT_KINDS];
+    if (status != SHOT_OK)
+        return status;
+    for (int kind = 0; kind < RENDER_FAULT_KINDS; kind++) {
+        faults[kind] = statistics->faults[kind];
+        faults[kind].x += shot->settings.first_x;
+        faults[kind].y += shot->settings.first_y;
+    }
+    shot_report_faults(shot, faults);
     return SHOT_OK;
 }

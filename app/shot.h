@@ -18,10 +18,16 @@ enum shot_status {
     SHOT_ENDED, // shot_wish.ready did not want to go on
 };
 
+// Of a picture, in pixels.
+struct shot_region {
+    uint32_t x, y, width, height;
+};
+
 struct shot_wish {
-    bool counts; // frames count their rays: render_statistics has them
-    bool audits; // the reference that chose the precision is kept for app/audit.h
-    bool copies; // each model has triangles of its own, even where instances are cheaper
+    struct shot_region region; // that is rendered; width 0: all of the picture
+    bool counts;               // frames count their rays: render_statistics has them
+    bool audits;               // the reference that chose the precision is kept for app/audit.h
+    bool copies;               // each model has triangles of its own, even where instances are cheaper
     // For a session that is not settled: called once all is done that needs no pixels of the background, and
     // settles it. false: the shot is not opened. NULL: the session is settled.
     bool (*ready)(void *context);
@@ -48,6 +54,8 @@ enum shot_status shot_open(struct shot *shot, struct session *session, struct gp
 enum shot_status shot_open_for(struct shot *shot, struct session *session, struct gpu *gpu, uint32_t camera,
                                struct shot_wish wish);
 void shot_close(struct shot *shot);
+// Whether all pixels of the region, or of the picture, can be held at once. false: an error in the sink.
+bool shot_fits(struct session *session, const struct shot_region *region);
 // What the session asks for: the settings and how its picture is displayed, for the flat scene as it is.
 void shot_set_up(struct shot *shot);
 // Reports in the sink that there is no memory for `what`; returns SHOT_SCENE.
@@ -58,6 +66,13 @@ enum shot_status shot_turn(struct shot *shot, uint32_t camera);
 // One frame into `image`, which has the session's size. Faulty pixels become errors in the session's sink.
 enum shot_status shot_take(struct shot *shot, struct image *image, const struct render_progress *progress,
                            struct render_statistics *statistics);
+
+// The same, but faults stay in the statistics, where their pixels count from the first of the shot's region.
+enum shot_status shot_take_silently(struct shot *shot, struct image *image,
+                                    const struct render_progress *progress,
+                                    struct render_statistics *statistics);
+// Makes faults, by kind, errors in the session's sink; their pixels are those of the whole picture.
+void shot_report_faults(struct shot *shot, const struct render_fault faults[RENDER_FAULT_KINDS]);
 
 // The same until `limit` ends it: statistics->samples says how many samples the picture has. NULL: all.
 enum shot_status shot_take_until(struct shot *shot, struct image *image,

@@ -19,8 +19,9 @@ enum cli_exit {
     CLI_OK = 0,
     CLI_SCENE = 1, // errors in the scene or in a file that it names
     CLI_USAGE = 2,
-    CLI_FILE = 3,   // the scene file cannot be read, an output cannot be written, or memory ran out
-    CLI_DEVICE = 4, // no usable device
+    CLI_FILE = 3,     // the scene file cannot be read, an output cannot be written, or memory ran out
+    CLI_DEVICE = 4,   // no usable device
+    CLI_STOPPED = 75, // by a signal, and a checkpoint is there to go on from (EX_TEMPFAIL of sysexits.h)
     CLI_INTERRUPTED = 130,
     CLI_PIPE = 141, // who read standard output has closed it, as if by SIGPIPE
     CLI_TERMINATED = 143,

@@ -212,7 +212,8 @@ int cmd_extremes(struct cli *cli) {
         return status;
     interrupt_catch();
     struct asset_store *store = asset_store_create();
-    const struct session_options options = cli_session_options(cli, cli->operands[0]);
+    struct session_options options = cli_session_options(cli, cli->operands[0]);
+    options.whole_picture = true;
     session_load(&job.session, &options, store);
     const bool good = job.session.state == SESSION_LOADED && job.session.sink.errors == 0;
     status = good ? run_scene(&job, (enum kind)kind) : cli_report(cli, &job.session, !cli->options.quiet);

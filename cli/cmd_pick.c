@@ -82,7 +82,8 @@ int cmd_pick(struct cli *cli) {
         return CLI_USAGE;
     struct session session;
     struct asset_store *store = asset_store_create();
-    const struct session_options options = cli_session_options(cli, cli->operands[0]);
+    struct session_options options = cli_session_options(cli, cli->operands[0]);
+    options.whole_picture = true;
     session_load(&session, &options, store);
     const bool good = session.state == SESSION_LOADED && session.sink.errors == 0;
     const int status = good ? pick_from(cli, &session, place, kind == 1) : cli_report(cli, &session, true);

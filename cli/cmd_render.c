@@ -128,9 +128,8 @@ static int report_stats(struct render_job *job) {
     return status;
 }
 
-// One camera of those that are left: frames, picture, statistics. The shot is open and uses it.
-static int render_camera(struct render_job *job, uint32_t camera, uint32_t cameras) {
-    progress_begin(&job->progress, job->cli->options.quiet);
+// All that is known of a picture is in memory at once.
+static int render_at_once(struct render_job *job, uint32_t camera, uint32_t cameras) {
     int status = take_frames(job, cameras);
     if (status == CLI_OK)
         status = render_note_estimate(job);
@@ -146,6 +145,13 @@ static int render_camera(struct render_job *job, uint32_t camera, uint32_t camer
     if (status == CLI_OK)
         status = render_write_aovs(job, camera);
     render_drop_aovs(job);
+    return status;
+}
+
+// One camera of those that are left: frames, picture, statistics. The shot is open and uses it.
+static int render_camera(struct render_job *job, uint32_t camera, uint32_t cameras) {
+    progress_begin(&job->progress, job->cli->options.quiet);
+    int status = job->in_bands ? render_in_bands(job, camera) : render_at_once(job, camera, cameras);
     if (status == CLI_OK && job->cli->options.stats)
         status = report_stats(job);
     if (status == CLI_OK)
@@ -178,7 +184,8 @@ static int render_by_device(struct render_job *job, uint32_t first, uint32_t end
     int status = open_device(job);
     if (status != CLI_OK)
         return status;
-    const struct shot_wish wish = {.counts = job->cli->options.stats != CLI_STATS_NONE,
+    const struct shot_wish wish = {.region = render_first_region(job),
+                                   .counts = job->cli->options.stats != CLI_STATS_NONE,
                                    .audits = render_wants_audit(&job->cli->options),
                                    .ready = job->is_apart ? is_ready : NULL,
                                    .ready_context = job};
@@ -188,7 +195,7 @@ static int render_by_device(struct render_job *job, uint32_t first, uint32_t end
     for (uint32_t i = first; i < end && status == CLI_OK; i++) {
         if (i != first && (opened = shot_turn(&job->shot, i)) != SHOT_OK)
             return render_failed(job, opened);
-        if (!render_aim_at_part(job))
+        if (!job->in_bands && !render_aim_at_part(job))
             return render_failed(job, SHOT_DEVICE);
         status = render_camera(job, i, end - i);
     }
@@ -202,10 +209,11 @@ static int render_cameras(struct render_job *job) {
     bool all = str_equal(job->cli->options.camera, STR("all"));
     job->all_cameras = all && cameras->count > 0;
     uint32_t first = all ? 0 : session_camera(&job->session, job->cli->options.camera);
-    if (first != IR_NO_INDEX && render_plan_part(job) != CLI_OK)
+    if (first != IR_NO_INDEX && (render_plan_part(job) != CLI_OK || render_plan_bands(job) != CLI_OK))
         return CLI_USAGE;
     const bool good =
-        first != IR_NO_INDEX && image_init(&job->image, job->part.region.width, job->part.region.height);
+        first != IR_NO_INDEX &&
+        (job->in_bands || image_init(&job->image, job->part.region.width, job->part.region.height));
     if ((!good || exact) && settle(job) != CLI_OK)
         return job->settled;
     if (first == IR_NO_INDEX)
@@ -229,6 +237,7 @@ static int run_job(struct render_job *job, struct asset_store *store) {
     const bool device = !cli_device_is_reference(job->cli);
     options.lint = LINT_CHEAP;
     options.error = device ? options.error : -1; // the reference takes all samples
+    options.whole_picture = !device || job->kept;
     options.pixels_later = device;
     options.on_text = device && !job->gpu ? begin_device : NULL;
     options.on_text_context = job;
@@ -317,7 +326,7 @@ int cmd_render(struct cli *cli) {
         return cli_usage(
             cli, cli->options.measure.time_arg,
             "'--time' works for one frame on a device: without --repeat and '--device reference'");
-    if (!noise_fits(&job) || render_judge_part(&job) != CLI_OK)
+    if (!noise_fits(&job) || render_judge_part(&job) != CLI_OK || render_judge_bands(&job) != CLI_OK)
         return CLI_USAGE;
     if (cli->options.watch)
         return cmd_watch(cli);

@@ -67,7 +67,8 @@ int cmd_tradeoff(struct cli *cli) {
     options.thumbnails = cli->options.output != NULL;
     interrupt_catch();
     struct asset_store *store = asset_store_create();
-    const struct session_options load = cli_session_options(cli, cli->operands[0]);
+    struct session_options load = cli_session_options(cli, cli->operands[0]);
+    load.whole_picture = true;
     session_load(&session, &load, store);
     const bool good = session.state == SESSION_LOADED && session.sink.errors == 0;
     const int status = good ? study_and_report(cli, &session, &options, kind)

@@ -175,13 +175,26 @@ static struct gpu_options device_options(struct cli *cli) {
     if (path)
         *store = (struct folder_store){arena_copy(&cli->arena, str_from(path)).ptr, KERNELS_BYTES};
     free(path);
-    return (struct gpu_options){.device = cli_device_wanted(cli),
+    // Of several devices this is the first: cli/bands opens the others.
+    const char *wanted = cli_device_wanted(cli);
+    if (cli->options.part.spreads)
+        wanted = strcmp(wanted, "all") == 0
+                     ? NULL
+                     : arena_copy(&cli->arena, (str){wanted, strcspn(wanted, ",")}).ptr;
+    return (struct gpu_options){.device = wanted,
                                 .keep = {.read = read_kernel, .write = write_kernel, .context = store}};
 }
 
 int cli_open_device(struct cli *cli, struct gpu **gpu) {
     char error[GPU_ERROR_BYTES] = "";
     const struct gpu_options options = device_options(cli);
+    return report_opening(cli, gpu_create(&options, gpu, error), error);
+}
+
+int cli_open_named(struct cli *cli, const char *name, struct gpu **gpu) {
+    char error[GPU_ERROR_BYTES] = "";
+    struct gpu_options options = device_options(cli);
+    options.device = name;
     return report_opening(cli, gpu_create(&options, gpu, error), error);
 }
 

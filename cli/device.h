@@ -15,6 +15,8 @@ const char *cli_device_wanted(const struct cli *cli);
 bool cli_device_is_reference(const struct cli *cli);
 // CLI_OK, or CLI_DEVICE with an error printed. *gpu is the caller's to destroy.
 int cli_open_device(struct cli *cli, struct gpu **gpu);
+// The same for a device by its number or name, whatever --device says.
+int cli_open_named(struct cli *cli, const char *name, struct gpu **gpu);
 // The same for one that shows pictures in a window, which needs these extensions of Vulkan's instance.
 int cli_open_screen_device(struct cli *cli, const char *const *extensions, uint32_t count, struct gpu **gpu);
 // The same beside other work: begun, and awaited; what is wrong is printed only then.

@@ -49,10 +49,8 @@ bool cli_read_size(struct cli *cli, int arg, const char *text) {
     int64_t height = 0;
     if (!x || number_parse_integer((str){text, (size_t)(x - text)}, &width) != NUMBER_OK ||
         number_parse_integer(str_from(x + 1), &height) != NUMBER_OK || width < 1 || height < 1 ||
-        width > 16384 || height > 16384 || width * height > 67108864) {
-        cli_usage(cli, arg,
-                  "--size takes WIDTHxHEIGHT, each from 1 to 16384 and 64 megapixels at most, such as "
-                  "640x480, not '%s'",
+        width > 16384 || height > 16384) {
+        cli_usage(cli, arg, "--size takes WIDTHxHEIGHT, each from 1 to 16384, such as 640x480, not '%s'",
                   text);
         return false;
     }

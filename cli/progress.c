@@ -79,7 +79,10 @@ static bool report(void *context, double fraction) {
         p->shown = true;
         p->last = now;
     }
-    return caught == 0;
+    if (caught == 0)
+        return true;
+    p->end = p->end > 0 ? p->end : now + p->patience;
+    return now < p->end;
 }
 
 struct render_progress progress_callback(struct progress *progress) {

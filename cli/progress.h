@@ -10,10 +10,15 @@ struct progress {
     double base, share; // this frame's part of the whole: base + share * fraction
     bool shown;
     const char *what; // is under way; NULL: nothing to tell apart
+    double patience;  // seconds that a frame under way may go on after a signal; 0: it ends at once
+    double end;       // clock: when they are over; 0: no signal came
 };
 
+// After a signal a frame under way is waited for, but not for ever: Slurm kills 30 s after it has asked.
+#define PROGRESS_PATIENCE 10.0
+
 void progress_begin(struct progress *progress, bool quiet);
-// The callback of renderer_render; false after a signal.
+// The callback of renderer_render; false after a signal, and the patience for it.
 struct render_progress progress_callback(struct progress *progress);
 // Erases the bar.
 void progress_end(struct progress *progress);

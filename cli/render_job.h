@@ -45,7 +45,7 @@ struct render_job {
     struct ir_image image_made;
     // Of what this job renders: all of the picture, unless the command line asks for less.
     struct part part;
-    bool is_part;
+    bool is_part, in_bands;
     const char *record; // of the picture that parts make (part_file.h); NULL: there are none
 };
 
@@ -115,8 +115,23 @@ int render_plan_part(struct render_job *job);
 bool render_aim_at_part(struct render_job *job);
 // As render_take_frame, of the part.
 enum shot_status render_take_part(struct render_job *job, const struct render_progress *progress);
+// What the part says of how it was made, besides its place.
+void render_fill_part(struct render_job *job);
 // The part as a file.
 void render_encode_part(struct render_job *job, struct strbuf *out);
+
+// ---- a picture, or a part of one, in bands (cli/bands)
+
+// Before the scene was read: whether what is asked for can be made in bands, if they are asked for. CLI_OK,
+// or CLI_USAGE with the mistake in the command line's sink.
+int render_judge_bands(struct render_job *job);
+// After render_plan_part: sets job->in_bands, for what is asked for, and for what does not fit memory. As
+// above.
+int render_plan_bands(struct render_job *job);
+// The part of the picture that a shot begins with; width 0: all of it.
+struct shot_region render_first_region(struct render_job *job);
+// All bands of a camera's picture, and its files. An exit code: CLI_STOPPED if a signal came.
+int render_in_bands(struct render_job *job, uint32_t camera);
 
 // One frame, that ends in time if the command line says when. `cameras` is how many pictures
 // are still to be made, this one included.

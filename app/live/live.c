@@ -147,7 +147,8 @@ static enum live_state renew(struct live *live, struct session *session, uint32_
         shot_no_memory(session, "the view");
         return LIVE_BROKEN;
     }
-    if (!where_camera_fits(session, camera, &view) || !flatten_again(live, session, &view, &flat))
+    if (!where_camera_fits(session, camera, &view) || !shot_fits(session, NULL) ||
+        !flatten_again(live, session, &view, &flat))
         return LIVE_BROKEN;
     shot->session = session;
     shot->view = view;

@@ -11,6 +11,7 @@
 #include <string.h>
 
 enum {
+    READ_BYTES = 1 << 20,                  // at a time
     HEAD_BYTES = 1024 + PART_RECORD_BYTES, // a head is shorter
     SEAL_BYTES = 8,
     SIDE_MOST = 16384,
@@ -31,16 +32,16 @@ static size_t floats_of(const struct part *part) {
     return heap_times(heap_times(pixels, 3), part_planes(part));
 }
 
-static void put_head(const struct part *part, struct strbuf *out) {
+void part_put_head(const struct part *part, const char *kind, struct strbuf *out) {
     const struct part_region *r = &part->region;
-    strbuf_format(out, "glint part 1\nscene %016" PRIx64 "%016" PRIx64 "\n", part->scene[0], part->scene[1]);
+    strbuf_format(out, "glint %s 1\nscene %016" PRIx64 "%016" PRIx64 "\n", kind, part->scene[0],
+                  part->scene[1]);
     strbuf_format(out, "settings %016" PRIx64 "%016" PRIx64 "\n", part->settings[0], part->settings[1]);
     strbuf_format(out, "device %s\nsize %u %u\n", part->device, part->width, part->height);
     strbuf_format(out, "region %u %u %u %u\n", r->x, r->y, r->width, r->height);
     strbuf_format(out, "samples %u %u %u\n", part->first_sample, part->end_sample, part->samples);
     strbuf_format(out, "shown %s %s\n", tones[part->display.tone], transfers[part->display.transfer]);
     strbuf_format(out, "record %s\n", part->record);
-    strbuf_format(out, "data %zu\n", heap_times(floats_of(part), sizeof *part->rgb));
 }
 
 static void put_word(uint64_t word, int bytes, unsigned char *out) {
@@ -62,7 +63,8 @@ static size_t row_at(const struct part *part, uint32_t plane, uint32_t y) {
 
 void part_encode(const struct part *part, struct strbuf *out) {
     const size_t row = (size_t)part->region.width * 3, begin = out->len;
-    put_head(part, out);
+    part_put_head(part, "part", out);
+    strbuf_format(out, "data %zu\n", heap_times(floats_of(part), sizeof *part->rgb));
     for (uint32_t y = 0; y < part->region.height; y++)
         for (uint32_t plane = 0; plane < part_planes(part); plane++)
             for (size_t i = 0; i < row; i++) {
@@ -76,6 +78,48 @@ void part_encode(const struct part *part, struct strbuf *out) {
     if (!out->failed)
         put_word(xxh64_of(out->data + begin, out->len - begin, 0), SEAL_BYTES, seal);
     strbuf_add(out, seal, out->failed ? 0 : sizeof seal);
+}
+
+static bool put_sealed(const struct image_sink *sink, struct xxh64 *hash, const void *bytes, size_t count) {
+    xxh64_add(hash, bytes, count);
+    return sink->put(sink->context, bytes, count);
+}
+
+static bool put_rows(const struct image_rows *rows, const struct image_sink *sink, struct xxh64 *hash,
+                     float *rgb) {
+    const uint32_t most = image_rows_at_once(rows);
+    unsigned char *bytes = (unsigned char *)rgb;
+    bool good = true;
+    for (uint32_t y = 0; y < rows->height && good; y += most) {
+        const uint32_t count = rows->height - y < most ? rows->height - y : most;
+        const size_t floats = heap_times(heap_times(rows->width, 3), count);
+        good = rows->take(rows->context, y, count, rgb);
+        for (size_t i = 0; i < floats && good; i++) {
+            uint32_t bits;
+            memcpy(&bits, bytes + 4 * i, sizeof bits);
+            put_word(bits, sizeof bits, bytes + 4 * i);
+        }
+        good = good && put_sealed(sink, hash, bytes, floats * sizeof *rgb);
+    }
+    return good;
+}
+
+bool part_write_rows(const struct part *part, const struct image_rows *rows, const struct image_sink *sink) {
+    struct strbuf head;
+    struct xxh64 hash;
+    unsigned char seal[SEAL_BYTES];
+    float *rgb = heap_array(heap_times(rows->width, image_rows_at_once(rows)), 3 * sizeof *rgb);
+    strbuf_init(&head);
+    part_put_head(part, "part", &head);
+    strbuf_format(&head, "data %zu\n", heap_times(floats_of(part), sizeof *part->rgb));
+    xxh64_begin(&hash, 0);
+    bool good = rgb && !head.failed && put_sealed(sink, &hash, head.data, head.len) &&
+                put_rows(rows, sink, &hash, rgb);
+    put_word(xxh64_end(&hash), SEAL_BYTES, seal);
+    good = good && sink->put(sink->context, seal, sizeof seal);
+    strbuf_finish(&head);
+    free(rgb);
+    return good;
 }
 
 // ---- reading
@@ -96,8 +140,7 @@ static bool is_sound(const struct part *part) {
            part->end_sample <= part->samples;
 }
 
-// A line of the head: its text after the word that it begins with. NULL: it is another line.
-static char *take_line(char **text, const char *word) {
+char *part_take_line(char **text, const char *word) {
     char *line = *text, *end = strchr(line, '\n');
     const size_t length = strlen(word);
     if (!end || strncmp(line, word, length) != 0 || line[length] != ' ')
@@ -108,12 +151,12 @@ static char *take_line(char **text, const char *word) {
 }
 
 static bool take_key(char **text, const char *word, uint64_t key[2]) {
-    const char *line = take_line(text, word);
+    const char *line = part_take_line(text, word);
     return line && strlen(line) == 32 && sscanf(line, "%16" SCNx64 "%16" SCNx64, &key[0], &key[1]) == 2;
 }
 
-static bool take_numbers(char **text, const char *word, uint32_t *out, int count) {
-    const char *line = take_line(text, word);
+bool part_take_numbers(char **text, const char *word, uint32_t *out, int count) {
+    const char *line = part_take_line(text, word);
     for (int i = 0; line && i < count; i++) {
         char *end;
         const unsigned long value = strtoul(line, &end, 10);
@@ -126,7 +169,7 @@ static bool take_numbers(char **text, const char *word, uint32_t *out, int count
 }
 
 static bool take_display(char **text, struct image_display *display) {
-    const char *line = take_line(text, "shown");
+    const char *line = part_take_line(text, "shown");
     char tone[16], transfer[16];
     if (!line || sscanf(line, "%15s %15s", tone, transfer) != 2)
         return false;
@@ -136,18 +179,18 @@ static bool take_display(char **text, struct image_display *display) {
     return a >= 0 && b >= 0;
 }
 
-// Returns how long the head is; 0: it is not that of a part.
-static size_t read_head(char *text, struct part *part) {
-    char *at = text;
-    const char *version = take_line(&at, "glint");
+bool part_take_head(char **text, const char *kind, struct part *part) {
+    const char *version = part_take_line(text, "glint");
+    const size_t length = strlen(kind);
     uint32_t size[2], region[4], samples[3];
-    if (!version || strcmp(version, "part 1") != 0 || !take_key(&at, "scene", part->scene) ||
-        !take_key(&at, "settings", part->settings))
-        return 0;
-    const char *device = take_line(&at, "device");
-    if (!device || !take_numbers(&at, "size", size, 2) || !take_numbers(&at, "region", region, 4) ||
-        !take_numbers(&at, "samples", samples, 3) || !take_display(&at, &part->display))
-        return 0;
+    if (!version || strncmp(version, kind, length) != 0 || strcmp(version + length, " 1") != 0 ||
+        !take_key(text, "scene", part->scene) || !take_key(text, "settings", part->settings))
+        return false;
+    const char *device = part_take_line(text, "device");
+    if (!device || !part_take_numbers(text, "size", size, 2) ||
+        !part_take_numbers(text, "region", region, 4) || !part_take_numbers(text, "samples", samples, 3) ||
+        !take_display(text, &part->display))
+        return false;
     snprintf(part->device, sizeof part->device, "%s", device);
     part->width = size[0];
     part->height = size[1];
@@ -155,11 +198,16 @@ static size_t read_head(char *text, struct part *part) {
     part->first_sample = samples[0];
     part->end_sample = samples[1];
     part->samples = samples[2];
-    const char *record = take_line(&at, "record");
+    const char *record = part_take_line(text, "record");
     snprintf(part->record, sizeof part->record, "%s", record ? record : "");
-    const char *data = record ? take_line(&at, "data") : NULL;
-    const bool good =
-        data && is_sound(part) && strtoull(data, NULL, 10) == heap_times(floats_of(part), sizeof *part->rgb);
+    return record && is_sound(part);
+}
+
+// Returns how long the head is; 0: it is not that of a part.
+static size_t read_head(char *text, struct part *part) {
+    char *at = text;
+    const char *data = part_take_head(&at, "part", part) ? part_take_line(&at, "data") : NULL;
+    const bool good = data && strtoull(data, NULL, 10) == heap_times(floats_of(part), sizeof *part->rgb);
     return good ? (size_t)(at - text) : 0;
 }
 
@@ -187,6 +235,11 @@ static bool take_floats(const struct strbuf *file, size_t head, struct part *par
     return true;
 }
 
+static bool say_damaged(struct strbuf *error) {
+    strbuf_cstr(error, "is damaged: its bytes are not those that were written; render it again");
+    return false;
+}
+
 static bool read_part(const char *path, bool head_only, struct strbuf *file, struct part *part,
                       struct strbuf *error) {
     char text[HEAD_BYTES + 1] = "";
@@ -203,10 +256,9 @@ static bool read_part(const char *path, bool head_only, struct strbuf *file, str
                       PART_ENDING);
         return false;
     }
-    if (!head_only && !is_whole(file, head, part)) {
-        strbuf_cstr(error, "is damaged: its bytes are not those that were written; render it again");
-        return false;
-    }
+    part->head_bytes = head;
+    if (!head_only && !is_whole(file, head, part))
+        return say_damaged(error);
     if (!head_only && !take_floats(file, head, part)) {
         strbuf_cstr(error, "needs more memory than there is");
         return false;
@@ -226,4 +278,55 @@ bool part_read(const char *path, bool head_only, struct part *part, struct strbu
 void part_finish(struct part *part) {
     free(part->rgb);
     part->rgb = NULL;
+}
+
+// ---- some rows at a time
+
+static bool check_seal(struct spool *file, const struct part *part, char *buffer) {
+    uint64_t left = (uint64_t)part->head_bytes + heap_times(floats_of(part), sizeof *part->rgb), at = 0;
+    unsigned char seal[SEAL_BYTES], after;
+    struct xxh64 hash;
+    xxh64_begin(&hash, 0);
+    while (left) {
+        const size_t count = left < READ_BYTES ? (size_t)left : READ_BYTES;
+        if (!spool_take(file, at, buffer, count))
+            return false;
+        xxh64_add(&hash, buffer, count);
+        at += count;
+        left -= count;
+    }
+    return spool_take(file, at, seal, sizeof seal) && get_word(seal, SEAL_BYTES) == xxh64_end(&hash) &&
+           !spool_take(file, at + sizeof seal, &after, 1);
+}
+
+bool part_check(const char *path, const struct part *part, struct strbuf *error) {
+    struct spool file;
+    char *buffer = heap_alloc(READ_BYTES);
+    bool whole = false;
+    if (!buffer)
+        return false;
+    if (!spool_read(&file, path)) {
+        strbuf_format(error, "cannot be read: %s", strerror(file.error));
+    } else {
+        whole = check_seal(&file, part, buffer);
+        if (file.error)
+            strbuf_format(error, "cannot be read: %s", strerror(file.error));
+        else if (!whole)
+            say_damaged(error);
+        spool_close(&file);
+    }
+    free(buffer);
+    return whole;
+}
+
+bool part_take_rows(struct spool *file, const struct part *part, uint32_t y, uint32_t count, float *rgb) {
+    const size_t row = heap_times(part->region.width, 3), floats = heap_times(row, count);
+    unsigned char *bytes = (unsigned char *)rgb;
+    if (!spool_take(file, part->head_bytes + (uint64_t)y * row * sizeof *rgb, rgb, floats * sizeof *rgb))
+        return false;
+    for (size_t i = 0; i < floats; i++) {
+        const uint32_t bits = (uint32_t)get_word(bytes + 4 * i, sizeof bits);
+        memcpy(bytes + 4 * i, &bits, sizeof bits);
+    }
+    return true;
 }

@@ -20,7 +20,8 @@
 #define GLINT_APP_PARTS_PART_FILE_H
 
 #include "core/strbuf.h"
-#include "picture/write/image.h"
+#include "files/spool.h"
+#include "picture/write/rows.h"
 
 #define PART_ENDING ".part"
 
@@ -41,14 +42,32 @@ struct part {
     struct part_region region;
     uint32_t first_sample, end_sample, samples; // samples: of the whole picture
     struct image_display display;
-    float *rgb; // NULL: only its head was read; plane after plane, each rows from the top
+    size_t head_bytes; // of the file that it was read from
+    float *rgb;        // NULL: only its head was read; plane after plane, each rows from the top
 };
 
 uint32_t part_planes(const struct part *part);
 // Appends the whole file.
 void part_encode(const struct part *part, struct strbuf *out);
+// The same file of a part with all samples, whose rows come some at a time. false: as image_rows_write.
+bool part_write_rows(const struct part *part, const struct image_rows *rows, const struct image_sink *sink);
 // Reads a file that part_encode has made. `head_only`: not its floats.
 bool part_read(const char *path, bool head_only, struct part *part, struct strbuf *error);
 void part_finish(struct part *part);
+// Of a part with all samples whose head was read, without its floats: whether its file is whole, which takes
+// reading it; and `count` rows of it, the first of its region is 0. false: it cannot be read.
+bool part_check(const char *path, const struct part *part, struct strbuf *error);
+bool part_take_rows(struct spool *file, const struct part *part, uint32_t y, uint32_t count, float *rgb);
+
+// ---- what other files of pictures in parts have too
+
+// The lines above from the first to `record`; `kind` is "part".
+void part_put_head(const struct part *part, const char *kind, struct strbuf *out);
+// The other way round: *text is then after them. It is changed. false: this is something else.
+bool part_take_head(char **text, const char *kind, struct part *part);
+// A further line of such a head: its text after the word that it begins with, and whole numbers. NULL or
+// false: it is another line.
+char *part_take_line(char **text, const char *word);
+bool part_take_numbers(char **text, const char *word, uint32_t *out, int count);
 
 #endif

@@ -29,8 +29,7 @@ static bool same_key(const uint64_t a[2], const uint64_t b[2]) {
     return a[0] == b[0] && a[1] == b[1];
 }
 
-// What two parts must share; NULL: they do.
-static const char *difference(const struct part *a, const struct part *b) {
+const char *parts_difference(const struct part *a, const struct part *b) {
     if (!same_key(a->scene, b->scene))
         return "is of another scene than";
     if (a->width != b->width || a->height != b->height)
@@ -160,7 +159,7 @@ static bool judge(const struct entry *entries, uint32_t count, struct parts_faul
 bool parts_fit(const struct part *parts, uint32_t count, uint32_t *order, struct parts_fault *fault) {
     fault->part = fault->other = PARTS_NONE;
     for (uint32_t i = 1; i < count; i++) {
-        const char *words = difference(&parts[i], &parts[0]);
+        const char *words = parts_difference(&parts[i], &parts[0]);
         if (words) {
             strbuf_cstr(&fault->text, words);
             fault->part = i;

@@ -18,6 +18,9 @@ struct parts_fault {
 // once. `order` gets their numbers in the order in which they are to be added. false: fault->text says why;
 // where that is empty, there is no memory.
 bool parts_fit(const struct part *parts, uint32_t count, uint32_t *order, struct parts_fault *fault);
+// What two parts of one picture must share, as words that stand between their names ("is of another scene
+// than"); NULL: they do.
+const char *parts_difference(const struct part *a, const struct part *b);
 // Adds a part with its floats to the image of the whole picture, which begins black.
 void parts_add(const struct part *part, struct image *image);
 

@@ -29,6 +29,7 @@ static void encode(void *context) {
         const str file = strbuf_view(&made->files[i]);
         made->errors[i] = made->files[i].failed ? 0 : output_whole(made->job->paths[i], file.ptr, file.len);
     }
+    batch_note_written(made);
 }
 
 // While the session is still that of this picture.
@@ -46,6 +47,7 @@ static struct image_texts texts_of(struct batch_run *run, enum image_format form
 
 void batch_encode(struct batch_run *run, struct batch_made *made) {
     made->run = run;
+    batch_note_scene(run, made);
     for (uint32_t i = 0; i < run->outputs.output_count; i++) {
         strbuf_clear(&made->files[i]);
         made->texts[i] = texts_of(run, run->outputs.outputs[i].format);
@@ -127,13 +129,16 @@ int batch_write(struct batch_run *run, struct batch_made *made) {
         return CLI_OK;
     parallel_wait(&made->task);
     const struct strbuf *first = &made->files[0];
-    const int status = has_sheet(run)                   ? add_to_sheet(run, made)
-                       : has_film(run) && first->failed ? no_memory(run, "a frame of the film")
-                       : has_film(run)
-                           ? film_frame(&run->film, made->image.width, made->image.height, strbuf_view(first))
-                           : judge_files(run, made);
-    if (status == CLI_OK)
+    int status = has_sheet(run)                   ? add_to_sheet(run, made)
+                 : has_film(run) && first->failed ? no_memory(run, "a frame of the film")
+                 : has_film(run)
+                     ? film_frame(&run->film, made->image.width, made->image.height, strbuf_view(first))
+                     : judge_files(run, made);
+    if (status == CLI_OK) {
         run->counts.written++;
+        run->counts.faulty += made->is_faulty;
+        status = batch_judge_checkpoint(run);
+    }
     made->job = NULL;
     return status;
 }

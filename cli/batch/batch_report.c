@@ -49,7 +49,7 @@ void batch_tell(const struct batch_run *run) {
     const double seconds = clock_seconds() - run->cli->begun;
     if (c->failed)
         tell_failures(run);
-    if (run->cli->options.quiet || c->written == 0 || (run->batch.film && c->failed))
+    if (run->cli->options.quiet || c->written == 0 || count == 0 || (run->batch.film && c->failed))
         return;
     const char *first = place_of(run, &run->batch.jobs.items[0]);
     const char *last = place_of(run, &run->batch.jobs.items[count - 1]);

@@ -16,6 +16,8 @@ static bool has_no_place(struct cli *cli) {
         const char *option, *why;
     } rows[] = {
         {"repeat", "each of many pictures is rendered once"},
+        {"bands", "many pictures are rendered whole, one after the other"},
+        {"partial", "many pictures are whole ones"},
         {"watch", "many pictures are rendered once; 'glint render --watch' follows one scene"},
         {"time", "many pictures are whole ones"},
         {"max-error", "settings are chosen for one picture"},
@@ -58,6 +60,9 @@ static int judge(struct batch_run *run) {
                          "a film is the only output of a run: leave this one out");
     if (b->montage && batch_film_of(outputs->count ? outputs->items[0].path : "") == BATCH_FFMPEG)
         return cli_usage(cli, b->montage_arg, "a sheet is one picture, and the output is a film");
+    if ((run->batch.film && cli_has_no_effect(cli, "resume", "a film is whole or not there")) ||
+        (b->montage && cli_has_no_effect(cli, "resume", "a sheet is whole or not there")))
+        return CLI_USAGE;
     if (b->fps > 0 && !b->has_frames && !run->batch.film &&
         cli_has_no_effect(cli, "fps", "there are no frames"))
         return CLI_USAGE;
@@ -193,6 +198,7 @@ static int render_one(struct batch_run *run, uint32_t number, struct batch_made 
     const int status = state == LIVE_SHOWN ? trace(run, job, made) : CLI_SCENE;
     tell_findings(run, job, status != CLI_OK);
     // A picture with faulty pixels is written, and failed: as by itself.
+    made->is_faulty = status != CLI_OK;
     if (made->job)
         batch_encode(run, made);
     return status;
@@ -218,6 +224,8 @@ static int note_failure(struct batch_run *run, const struct batch_job *job, int 
 
 static int render_all(struct batch_run *run) {
     int end = CLI_OK;
+    if (run->batch.jobs.count == 0)
+        return end;
     begin_reading(run, 0);
     for (uint32_t i = 0; i < run->batch.jobs.count && end == CLI_OK; i++) {
         struct batch_made *made = &run->made[i % 2], *last = &run->made[(i + 1) % 2];
@@ -248,7 +256,7 @@ static int finish(struct batch_run *run, int status) {
     else if (run->cli->options.batch.montage && status == CLI_OK)
         last = batch_write_sheet(run);
     if (status == CLI_INTERRUPTED)
-        return cli_interrupted(run->cli);
+        return batch_stopped(run);
     if (last == CLI_OK || run->counts.failed)
         batch_tell(run);
     const int told = batch_stats(run);
@@ -262,6 +270,8 @@ static int run_batch(struct batch_run *run) {
     run->counts.device_seconds = clock_seconds() - start;
     const struct live_wish wish = {.session = cli_session_options(cli, run->batch.jobs.items[0].scene),
                                    .alone = true};
+    if (status == CLI_OK)
+        status = batch_resume(run);
     if (status == CLI_OK && !live_begin(&run->live, &wish, run->gpu)) {
         cli_error(cli, DIAG_OUT_OF_MEMORY, run->batch.jobs.items[0].scene, NULL, "not enough memory");
         status = CLI_FILE;
@@ -274,6 +284,7 @@ static int run_batch(struct batch_run *run) {
             strbuf_init(&run->made[i].files[k]);
     }
     progress_begin(&run->progress, cli->options.quiet);
+    run->progress.patience = cli->options.part.resume_arg ? PROGRESS_PATIENCE : 0;
     if (status == CLI_OK)
         status = finish(run, render_all(run));
     for (int i = 0; i < 2; i++) {
@@ -281,6 +292,7 @@ static int run_batch(struct batch_run *run) {
             strbuf_finish(&run->made[i].files[k]);
         image_finish(&run->made[i].image);
     }
+    batch_end_resume(run, status == CLI_OK);
     live_finish(&run->live);
     image_finish(&run->sheet);
     cli_close_device(cli, run->gpu);

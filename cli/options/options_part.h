@@ -1,4 +1,4 @@
-// The options of render that make a part of a picture.
+// The options of render that make a part of a picture, or all of it in bands.
 //
 // Thread safety: as cli.h.
 #ifndef GLINT_CLI_OPTIONS_OPTIONS_PART_H
@@ -12,6 +12,9 @@ enum cli_part_option {
     CLI_PART_TILE,
     CLI_PART_SAMPLES_FROM,
     CLI_PART_SAMPLES_TO,
+    CLI_PART_BANDS,
+    CLI_PART_RESUME,
+    CLI_PART_PARTIAL,
 };
 
 struct cli_part {
@@ -21,6 +24,9 @@ struct cli_part {
     uint32_t tile, tiles; // from 1
     int samples_arg;
     int32_t samples_from, samples_to; // samples_to 0: to the last
+    int bands_arg, resume_arg, partial_arg;
+    bool spreads; // over several devices
+    int32_t band_rows; // 0: as many as take a few seconds
 };
 
 struct cli;

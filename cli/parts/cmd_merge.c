@@ -1,6 +1,6 @@
 // glint merge OUT PART...: parts of a picture, to the picture.
 #include "app/parts/parts.h"
-#include "cli/render_job.h"
+#include "cli/parts/merge_rows.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -75,6 +75,26 @@ static int add_parts(struct render_job *job, const uint32_t *order, uint32_t cou
     return status;
 }
 
+// What a row cannot be made of alone: parts of samples, and formats that are coded as a whole.
+static int merge_at_once(struct render_job *job, const uint32_t *order, uint32_t count) {
+    struct cli *cli = job->cli;
+    const uint32_t width = job->image.width, height = job->image.height;
+    if ((uint64_t)width * height > SESSION_PIXELS_MOST) {
+        const int status =
+            cli_usage(cli, cli_operand_place(cli, 0),
+                      "a picture of more than 64 megapixels is joined row by row: of parts with all "
+                      "samples, to .png, .exr, .pfm or .hdr");
+        diag_help(&cli->sink, "choose one of these endings, and take parts by --tile or --region");
+        return status;
+    }
+    if (!image_init(&job->image, width, height)) {
+        cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory for the picture");
+        return CLI_SCENE;
+    }
+    const int status = add_parts(job, order, count);
+    return status == CLI_OK ? render_write_pictures(job, 0) : status;
+}
+
 static int merge(struct render_job *job) {
     struct cli *cli = job->cli;
     const uint32_t count = (uint32_t)cli->operand_count - 1;
@@ -87,10 +107,6 @@ static int merge(struct render_job *job) {
         status = judge(cli, parts, count, order);
     if (status != CLI_OK)
         return status;
-    if (!image_init(&job->image, parts->width, parts->height)) {
-        cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory for the picture");
-        return CLI_SCENE;
-    }
     // Made on several devices it says nothing of how: no command makes it again.
     job->record = parts->record;
     for (uint32_t i = 1; i < count; i++)
@@ -99,11 +115,11 @@ static int merge(struct render_job *job) {
     job->image_made.tone = parts->display.tone;
     job->image_made.transfer = parts->display.transfer;
     job->session.image = &job->image_made;
+    job->image = (struct image){.width = parts->width, .height = parts->height};
     status = render_judge_size(job);
     if (status == CLI_OK)
-        status = add_parts(job, order, count);
-    if (status == CLI_OK)
-        status = render_write_pictures(job, 0);
+        status = merge_is_by_rows(job, parts, count) ? merge_rows(job, parts, order, count)
+                                                     : merge_at_once(job, order, count);
     if (status == CLI_OK && !cli->options.quiet)
         render_tell_written(job, 0);
     return status;

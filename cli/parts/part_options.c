@@ -1,4 +1,4 @@
-// --region, --tile, --samples-from and --samples-to.
+// --region, --tile, --samples-from and --samples-to; --bands, --resume and --partial.
 #include "cli/cli.h"
 
 #include <stdlib.h>
@@ -47,12 +47,24 @@ static bool read_tile(struct cli *cli, int arg, const char *value) {
     return false;
 }
 
+static bool read_rows(struct cli *cli, int arg, const char *value) {
+    struct cli_part *part = &cli->options.part;
+    part->bands_arg = arg;
+    return !value || cli_read_count(cli, arg, "bands", value, 1, SIDE_MOST, &part->band_rows);
+}
+
 bool cli_part_apply(struct cli *cli, int arg, enum cli_part_option option, const char *value) {
     struct cli_part *part = &cli->options.part;
     if (option == CLI_PART_REGION)
         return read_region(cli, arg, value);
     if (option == CLI_PART_TILE)
         return read_tile(cli, arg, value);
+    if (option == CLI_PART_BANDS)
+        return read_rows(cli, arg, value);
+    if (option == CLI_PART_RESUME || option == CLI_PART_PARTIAL) {
+        *(option == CLI_PART_RESUME ? &part->resume_arg : &part->partial_arg) = arg;
+        return true;
+    }
     part->samples_arg = arg;
     if (option == CLI_PART_SAMPLES_FROM)
         return cli_read_count(cli, arg, "samples-from", value, 0, SAMPLES_MOST - 1, &part->samples_from);

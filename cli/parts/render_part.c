@@ -101,24 +101,17 @@ static int plan_samples(struct render_job *job) {
                      part->first_sample, part->end_sample, part->samples);
 }
 
-// The picture of a part must not depend on the others.
+// Some of the samples are a part, and no picture.
 static int judge_outputs(struct render_job *job) {
     const struct part *part = &job->part;
     const bool few = part->end_sample - part->first_sample < part->samples;
-    const bool small = part->region.width < part->width || part->region.height < part->height;
-    for (uint32_t i = 0; i < job->output_count; i++) {
+    for (uint32_t i = 0; i < job->output_count && few; i++) {
         const struct cli_output *output = &job->outputs[i];
         if (output->is_part)
             continue;
-        const bool brightest =
-            small && part->display.tone == IR_TONE_NORMALIZE && !image_format_info(output->format)->is_linear;
-        if (!few && !brightest)
-            continue;
         const int status =
             cli_usage(job->cli, output->arg ? output->arg : place_of(job),
-                      few ? "some of the samples make no picture: '%s' does not end in " PART_ENDING
-                          : "tone 'normalize' needs the whole picture's brightest colour for '%s'",
-                      output->path);
+                      "some of the samples make no picture: '%s' does not end in " PART_ENDING, output->path);
         diag_help(&job->cli->sink, "write parts, -o NAME" PART_ENDING ", and join them: glint merge");
         return status;
     }
@@ -215,8 +208,7 @@ static void make_keys(struct render_job *job) {
     hash128_end(&h, job->part.settings);
 }
 
-void render_encode_part(struct render_job *job, struct strbuf *out) {
-    struct part part;
+void render_fill_part(struct render_job *job) {
     make_keys(job);
     snprintf(job->part.device, sizeof job->part.device, "%s", gpu_info(job->gpu)->name);
     const struct provenance made = {.session = &job->session,
@@ -225,6 +217,11 @@ void render_encode_part(struct render_job *job, struct strbuf *out) {
                                     .is_double = job->shot.flat.is_double,
                                     .format = IMAGE_PNG};
     provenance_line(job->cli, &made, job->part.record, sizeof job->part.record);
+}
+
+void render_encode_part(struct render_job *job, struct strbuf *out) {
+    struct part part;
+    render_fill_part(job);
     part = job->part;
     if (!part.rgb)
         part.rgb = job->image.rgb;

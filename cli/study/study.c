@@ -242,7 +242,8 @@ int cli_choose_settings(struct cli *cli, struct asset_store *store, struct gpu *
     if (cli->options.measure.time_s > 0)
         options.end = cli->begun + SEARCH_TIME_SHARE * cli->options.measure.time_s;
     options.allow_resolution = cli->options.measure.allow_resolution;
-    const struct session_options load = cli_session_options(cli, cli->operands[0]);
+    struct session_options load = cli_session_options(cli, cli->operands[0]);
+    load.whole_picture = true;
     session_load(&session, &load, store);
     const bool good = session.state == SESSION_LOADED && session.sink.errors == 0;
     // If the scene has errors, the rendering itself reports them.

@@ -345,15 +345,20 @@ static void check_model(const struct rules *rules, const struct ir_model *model)
 static void check_image(const struct rules *rules, const struct ir_image *image) {
     const struct schema_element *schema = &SCHEMA_IMAGE;
     int64_t pixels = (int64_t)image->width * image->height;
-    if (pixels <= PIXELS_MAX || is_poisoned(schema, image, "width") || is_poisoned(schema, image, "height"))
+    // Others are rendered in bands.
+    if (pixels <= PIXELS_MAX || !(image->error > 0) || is_poisoned(schema, image, "width") ||
+        is_poisoned(schema, image, "height"))
         return;
     const char *later = is_written(schema, image, "height") ? "height" : "width";
     const char *other = strcmp(later, "height") == 0 ? "width" : "height";
     diag_add(rules->sink, DIAG_TOO_MANY_PIXELS, value_place(rules, schema, image, later),
-             "the image has %d x %d, that is %lld pixels; at most %lld are allowed", image->width,
-             image->height, (long long)pixels, (long long)PIXELS_MAX);
+             "the image has %d x %d, that is %lld pixels; at most %lld are allowed where 'error' ends them",
+             image->width, image->height, (long long)pixels, (long long)PIXELS_MAX);
     if (is_written(schema, image, other))
         diag_note(rules->sink, value_place(rules, schema, image, other), "'%s' is here", other);
+    diag_note(rules->sink, value_place(rules, schema, image, "error"), "'error' is here");
+    diag_help(rules->sink,
+              "leave 'error' out: all pixels then have the same samples, and are rendered in bands");
 }
 
 void validate_scene(struct loader *loader, const struct ir_scene *scene) {

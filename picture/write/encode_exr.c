@@ -2,7 +2,7 @@
 #include "core/heap.h"
 #include "picture/write/encode_parts.h"
 #include "picture/write/exr_file.h"
-#include "picture/write/image.h"
+#include "picture/write/rows.h"
 
 #include <ctype.h>
 #include <stdlib.h>
@@ -71,4 +71,29 @@ void encode_exr(const struct image *image, const struct image_texts *texts, stru
     }
     free(attributes);
     free(channels);
+}
+
+bool encode_exr_rows(const struct image_rows *rows, const struct image_sink *sink) {
+    static const float pixel[COLORS];
+    text_name names[IMAGE_TEXTS_MOST + 1];
+    struct exr_attribute attributes[IMAGE_TEXTS_MOST + 1];
+    struct exr_channel channels[COLORS];
+    struct strbuf failure;
+    const struct image image = {.rgb = (float *)pixel, .coding = rows->coding};
+    put_colors(&image, channels);
+    put_texts(&rows->texts, names, attributes);
+    const struct exr_file file = {.width = rows->width,
+                                  .height = rows->height,
+                                  .compression = rows->coding.compression,
+                                  .channels = channels,
+                                  .channel_count = COLORS,
+                                  .attributes = attributes,
+                                  .attribute_count = rows->texts.count,
+                                  .rows = rows,
+                                  .sink = sink};
+    strbuf_init(&failure);
+    exr_file_write(&file, &failure);
+    const bool written = !failure.failed;
+    strbuf_finish(&failure);
+    return written;
 }

@@ -63,19 +63,21 @@ static void put_plane(const uint8_t *plane, size_t width, struct strbuf *out) {
     }
 }
 
-void encode_hdr(uint32_t width, uint32_t height, const float *rgb, const struct image_texts *texts,
-                struct strbuf *out) {
+void encode_hdr_head(uint32_t width, uint32_t height, const struct image_texts *texts, struct strbuf *out) {
     strbuf_cstr(out, "#?RADIANCE\n");
     for (uint32_t i = 0; texts && i < texts->count; i++)
         strbuf_format(out, "# %s: %s\n", texts->items[i].keyword, texts->items[i].text);
     strbuf_format(out, "FORMAT=32-bit_rle_rgbe\n\n-Y %u +X %u\n", height, width);
+}
+
+void encode_hdr_rows(uint32_t width, uint32_t rows, const float *rgb, struct strbuf *out) {
     uint8_t *planes = heap_array(4, width);
     if (!planes) {
         out->failed = true;
         return;
     }
     bool is_coded = width >= RLE_WIDTH_MIN && width <= RLE_WIDTH_MAX;
-    for (uint32_t y = 0; y < height; y++) {
+    for (uint32_t y = 0; y < rows; y++) {
         if (is_coded)
             strbuf_add(out, (uint8_t[4]){2, 2, (uint8_t)(width >> 8), (uint8_t)width}, 4);
         for (uint32_t x = 0; x < width; x++) {
@@ -90,4 +92,10 @@ void encode_hdr(uint32_t width, uint32_t height, const float *rgb, const struct 
             put_plane(planes + (size_t)k * width, width, out);
     }
     free(planes);
+}
+
+void encode_hdr(uint32_t width, uint32_t height, const float *rgb, const struct image_texts *texts,
+                struct strbuf *out) {
+    encode_hdr_head(width, height, texts, out);
+    encode_hdr_rows(width, height, rgb, out);
 }

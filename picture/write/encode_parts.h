@@ -23,4 +23,12 @@ void encode_pfm(uint32_t width, uint32_t height, const float *rgb, struct strbuf
 void encode_hdr(uint32_t width, uint32_t height, const float *rgb, const struct image_texts *texts,
                 struct strbuf *out);
 
+// ---- some rows at a time (rows.h): the head of a file, and rows of it, from the top of those given; of a
+// PFM the last one first
+
+void encode_pfm_head(uint32_t width, uint32_t height, struct strbuf *out);
+void encode_pfm_rows(uint32_t width, uint32_t rows, const float *rgb, struct strbuf *out);
+void encode_hdr_head(uint32_t width, uint32_t height, const struct image_texts *texts, struct strbuf *out);
+void encode_hdr_rows(uint32_t width, uint32_t rows, const float *rgb, struct strbuf *out);
+
 #endif

@@ -7,10 +7,13 @@ enum {
     CHUNK = 1024
 }; // floats
 
-void encode_pfm(uint32_t width, uint32_t height, const float *rgb, struct strbuf *out) {
+void encode_pfm_head(uint32_t width, uint32_t height, struct strbuf *out) {
     strbuf_format(out, "PF\n%u %u\n-1.0\n", width, height);
+}
+
+void encode_pfm_rows(uint32_t width, uint32_t rows, const float *rgb, struct strbuf *out) {
     size_t row = (size_t)width * 3;
-    for (uint32_t y = height; y-- > 0;)
+    for (uint32_t y = rows; y-- > 0;)
         for (size_t begin = 0; begin < row; begin += CHUNK) {
             size_t count = row - begin < CHUNK ? row - begin : CHUNK;
             uint8_t bytes[CHUNK * 4];
@@ -22,4 +25,9 @@ void encode_pfm(uint32_t width, uint32_t height, const float *rgb, struct strbuf
             }
             strbuf_add(out, bytes, 4 * count);
         }
+}
+
+void encode_pfm(uint32_t width, uint32_t height, const float *rgb, struct strbuf *out) {
+    encode_pfm_head(width, height, out);
+    encode_pfm_rows(width, height, rgb, out);
 }

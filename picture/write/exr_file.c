@@ -2,7 +2,7 @@
 
 #include "core/heap.h"
 #include "core/parallel.h"
-#include "picture/write/image.h"
+#include "picture/write/rows.h"
 
 #include <OpenEXR/openexr.h>
 #include <stdatomic.h>
@@ -15,11 +15,46 @@ enum {
 
 // ---- the library's way to the file
 
+struct target {
+    struct strbuf *out;
+    const struct image_sink *sink; // NULL: memory
+    uint64_t written;              // to the sink
+    bool failed;                   // the sink, or where rows come from
+};
+
+static bool put_zeros(struct target *target, uint64_t end) {
+    static const uint8_t zeros[256];
+    bool good = true;
+    while (good && target->written < end) {
+        const uint64_t left = end - target->written, count = left < sizeof zeros ? left : sizeof zeros;
+        good = target->sink->put(target->sink->context, zeros, (size_t)count);
+        target->written += count;
+    }
+    return good;
+}
+
+// The table of chunks is left out at first, and written over once it is known.
+static int64_t put_to_sink(struct target *target, const void *bytes, uint64_t count, uint64_t at) {
+    const struct image_sink *sink = target->sink;
+    bool good = put_zeros(target, at);
+    const uint64_t over = target->written - at < count ? target->written - at : count;
+    if (good && over)
+        good = sink->put_over(sink->context, at, bytes, (size_t)over);
+    if (good && over < count)
+        good = sink->put(sink->context, (const char *)bytes + over, (size_t)(count - over));
+    target->written += count - over;
+    target->failed |= !good;
+    return good ? (int64_t)count : -1;
+}
+
 static int64_t on_write(exr_const_context_t context, void *user, const void *bytes, uint64_t count,
                         uint64_t at, exr_stream_error_func_ptr_t on_error) {
-    struct strbuf *out = user;
+    struct target *target = user;
+    struct strbuf *out = target->out;
     (void)context;
     (void)on_error;
+    if (target->sink)
+        return put_to_sink(target, bytes, count, at);
     while (out->len < at && !out->failed)
         strbuf_char(out, '\0');
     if (out->failed)
@@ -79,7 +114,10 @@ struct encoding {
     const struct exr_file *file;
     int32_t lines;
     exr_chunk_info_t first;
-    struct chunk *chunks;
+    struct chunk *chunks; // of those that are coded at once
+    size_t first_chunk;
+    float *rgb; // of their rows; NULL: channels are there
+    struct target target;
     atomic_bool failed;
 };
 
@@ -90,7 +128,17 @@ static const struct exr_channel *channel_named(const struct exr_file *file, cons
     return NULL;
 }
 
-static void place_channels(const struct exr_file *file, exr_encode_pipeline_t *pipeline) {
+// Where the channel's values of the chunk begin.
+static const uint8_t *place_of(const struct encoding *e, const struct exr_channel *channel, int32_t row) {
+    const size_t stride = e->file->width * (size_t)channel->step_bytes;
+    if (!e->rgb)
+        return (const uint8_t *)channel->first + (size_t)row * stride;
+    const ptrdiff_t place = (const uint8_t *)channel->first - (const uint8_t *)e->file->channels->first;
+    return (const uint8_t *)e->rgb + ((size_t)row - e->first_chunk * (size_t)e->lines) * stride + place;
+}
+
+static void place_channels(const struct encoding *e, exr_encode_pipeline_t *pipeline) {
+    const struct exr_file *file = e->file;
     for (int16_t i = 0; i < pipeline->channel_count; i++) {
         exr_coding_channel_info_t *c = &pipeline->channels[i];
         const struct exr_channel *from = channel_named(file, c->channel_name);
@@ -98,8 +146,7 @@ static void place_channels(const struct exr_file *file, exr_encode_pipeline_t *p
         c->user_data_type = from->type == EXR_TYPE_UINT ? EXR_PIXEL_UINT : EXR_PIXEL_FLOAT;
         c->user_pixel_stride = from->step_bytes;
         c->user_line_stride = (int32_t)file->width * from->step_bytes;
-        c->encode_from_ptr = (const uint8_t *)from->first +
-                             (size_t)pipeline->chunk.start_y * file->width * (size_t)from->step_bytes;
+        c->encode_from_ptr = place_of(e, from, pipeline->chunk.start_y);
     }
 }
 
@@ -131,48 +178,80 @@ static bool encode_chunk(struct encoding *e, size_t i) {
     exr_result_t result = exr_encoding_initialize(e->context, 0, &info, &pipeline);
     if (result != EXR_ERR_SUCCESS)
         return false;
-    place_channels(e->file, &pipeline);
+    place_channels(e, &pipeline);
     result = exr_encoding_choose_default_routines(e->context, 0, &pipeline);
-    pipeline.encoding_user_data = &e->chunks[i];
+    struct chunk *chunk = &e->chunks[i - e->first_chunk];
+    pipeline.encoding_user_data = chunk;
     pipeline.yield_until_ready_fn = keep;
     if (result == EXR_ERR_SUCCESS)
         exr_encoding_run(e->context, 0, &pipeline);
     exr_encoding_destroy(e->context, &pipeline);
-    return e->chunks[i].bytes != NULL;
+    return chunk->bytes != NULL;
 }
 
 static void encode_chunks(void *context, size_t begin, size_t end) {
     struct encoding *e = context;
-    for (size_t i = begin; i < end; i++)
+    for (size_t i = e->first_chunk + begin; i < e->first_chunk + end; i++)
         if (!encode_chunk(e, i))
             e->failed = true;
 }
 
-static bool write_chunks(struct encoding *e) {
-    const size_t count = (e->file->height + (uint32_t)e->lines - 1) / (uint32_t)e->lines;
-    e->chunks = heap_zeroed(count, sizeof *e->chunks);
-    if (!e->chunks || exr_write_scanline_chunk_info(e->context, 0, 0, &e->first) != EXR_ERR_SUCCESS) {
-        free(e->chunks);
+static bool take_rows(struct encoding *e, size_t count) {
+    const struct image_rows *rows = e->file->rows;
+    const uint32_t y = (uint32_t)e->first_chunk * (uint32_t)e->lines, left = e->file->height - y;
+    const uint32_t wanted = (uint32_t)count * (uint32_t)e->lines;
+    const bool taken = !rows || rows->take(rows->context, y, wanted < left ? wanted : left, e->rgb);
+    e->target.failed |= !taken;
+    return taken;
+}
+
+// `count` chunks from e->first_chunk on, coded side by side and written in their order.
+static bool write_some(struct encoding *e, size_t count) {
+    if (!take_rows(e, count))
         return false;
-    }
     parallel_for(count, 1, encode_chunks, e);
     bool good = !e->failed;
     for (size_t i = 0; i < count; i++) {
-        good = good && exr_write_scanline_chunk(e->context, 0, (int)i * e->lines, e->chunks[i].bytes,
-                                                e->chunks[i].count) == EXR_ERR_SUCCESS;
+        good = good && exr_write_scanline_chunk(e->context, 0, (int)(e->first_chunk + i) * e->lines,
+                                                e->chunks[i].bytes, e->chunks[i].count) == EXR_ERR_SUCCESS;
         free(e->chunks[i].bytes);
+        e->chunks[i] = (struct chunk){0};
     }
+    return good;
+}
+
+// As many chunks as are coded at once.
+static size_t chunks_at_once(const struct encoding *e, size_t all) {
+    const size_t bytes = (size_t)e->file->width * (size_t)e->lines * 3 * sizeof *e->rgb;
+    const size_t fit = bytes < IMAGE_ROWS_BYTES ? IMAGE_ROWS_BYTES / bytes : 1;
+    const size_t least = parallel_processors(), some = fit > least ? fit : least;
+    return !e->file->rows || some > all ? all : some;
+}
+
+static bool write_chunks(struct encoding *e) {
+    const size_t count = (e->file->height + (uint32_t)e->lines - 1) / (uint32_t)e->lines;
+    const size_t most = chunks_at_once(e, count), rows = heap_times(most, (uint32_t)e->lines);
+    e->chunks = heap_zeroed(most, sizeof *e->chunks);
+    e->rgb = e->file->rows ? heap_array(heap_times(rows, e->file->width), 3 * sizeof *e->rgb) : NULL;
+    bool good = e->chunks && (e->rgb || !e->file->rows) &&
+                exr_write_scanline_chunk_info(e->context, 0, 0, &e->first) == EXR_ERR_SUCCESS;
+    while (good && e->first_chunk < count) {
+        const size_t left = count - e->first_chunk, some = left < most ? left : most;
+        good = write_some(e, some);
+        e->first_chunk += some;
+    }
+    free(e->rgb);
     free(e->chunks);
     return good;
 }
 
 void exr_file_write(const struct exr_file *file, struct strbuf *out) {
     exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    struct encoding e = {.file = file};
+    struct encoding e = {.file = file, .target = {.out = out, .sink = file->sink}};
     init.error_handler_fn = on_error;
     init.alloc_fn = heap_alloc;
     init.free_fn = free;
-    init.user_data = out;
+    init.user_data = &e.target;
     init.write_fn = on_write;
     init.zip_level = ZIP_LEVEL;
     const bool begun =
@@ -181,7 +260,7 @@ void exr_file_write(const struct exr_file *file, struct strbuf *out) {
                          exr_get_scanlines_per_chunk(e.context, 0, &e.lines) == EXR_ERR_SUCCESS &&
                          write_chunks(&e);
     const bool ended = begun && exr_finish(&e.context) == EXR_ERR_SUCCESS;
-    if (!written || !ended)
+    if ((!written || !ended) && !e.target.failed)
         heap_exhausted(0); // all else is right: what the library asks of zlib and the system has failed
     out->failed |= !written || !ended;
 }

@@ -17,6 +17,9 @@ enum exr_type {
     EXR_TYPE_FLOAT,
 };
 
+struct image_rows; // rows.h
+struct image_sink;
+
 struct exr_channel {
     const char *name; // "R", "normal.X"
     enum exr_type type;
@@ -35,6 +38,11 @@ struct exr_file {
     uint32_t channel_count;
     const struct exr_attribute *attributes;
     uint32_t attribute_count;
+    // Where rows of three floats come from, some at a time, and where the file goes: `first` of channels then
+    // points into one pixel, whose first value is that of the first channel. NULL: channels are in memory,
+    // and so is the file.
+    const struct image_rows *rows;
+    const struct image_sink *sink;
 };
 
 // What an OpenEXR picture holds beside its channels R, G and B.
@@ -45,7 +53,7 @@ struct image_layers {
     uint32_t attribute_count;
 };
 
-// Appends the whole file to `out`, which is empty.
+// Appends the whole file to `out`, which is empty, or writes it to the sink: then `out` only takes `failed`.
 void exr_file_write(const struct exr_file *file, struct strbuf *out);
 
 #endif

@@ -8,12 +8,12 @@
 #include <zlib.h>
 
 enum {
-    PIECE = 128 << 10,
-    WINDOW = 32 << 10, // that deflate looks back
-    LEVEL = 4,         // with the settings below; docs/decisions/png.md
-    MEMORY = 9,        // zlib's own settings: the most,
-    RAW = -15,         // and a stream without header
-    FLUSH = 16,        // more bytes than the end of a piece takes
+    PIECE = PNG_PIECE,
+    WINDOW = PNG_WINDOW,
+    LEVEL = 4,  // with the settings below; docs/decisions/png.md
+    MEMORY = 9, // zlib's own settings: the most,
+    RAW = -15,  // and a stream without header
+    FLUSH = 16, // more bytes than the end of a piece takes
 };
 
 // How deflate looks for matches (zlib.h, deflateTune).
@@ -27,6 +27,7 @@ enum {
 struct deflating {
     const uint8_t *filtered;
     struct png_data *data;
+    bool is_last; // the stream ends with them
     atomic_bool failed;
 };
 
@@ -66,23 +67,25 @@ static void deflate_pieces(void *context, size_t begin, size_t end) {
             d->failed = true;
             return;
         }
-        if (!deflate_piece(&stream, d->filtered, i + 1 == d->data->count, &d->data->pieces[i]))
+        if (!deflate_piece(&stream, d->filtered, d->is_last && i + 1 == d->data->count, &d->data->pieces[i]))
             d->failed = true;
         deflateEnd(&stream);
     }
 }
 
-static bool deflate_all(const uint8_t *filtered, size_t size, struct png_data *out) {
+bool png_data_deflate(const uint8_t *filtered, size_t before, size_t size, bool is_last,
+                      struct png_data *out) {
     const size_t count = (size + PIECE - 1) / PIECE;
+    *out = (struct png_data){0};
     out->pieces = heap_zeroed(count, sizeof *out->pieces);
     if (!out->pieces)
         return false;
     out->count = count;
     for (size_t i = 0; i < count; i++) {
-        out->pieces[i].from = i * PIECE;
-        out->pieces[i].end = i + 1 < count ? (i + 1) * PIECE : size;
+        out->pieces[i].from = before + i * PIECE;
+        out->pieces[i].end = before + (i + 1 < count ? (i + 1) * PIECE : size);
     }
-    struct deflating d = {.filtered = filtered, .data = out};
+    struct deflating d = {.filtered = filtered, .data = out, .is_last = is_last};
     parallel_for(count, 1, deflate_pieces, &d);
     return !d.failed;
 }
@@ -92,8 +95,8 @@ bool png_data_make(uint32_t width, uint32_t height, uint32_t pixel, const uint8_
     *out = (struct png_data){0};
     const size_t size = heap_times(heap_times(pixel, width) + 1, height);
     uint8_t *filtered = heap_alloc(size);
-    const bool made =
-        filtered && png_filter_rows(width, height, pixel, rgb, filtered) && deflate_all(filtered, size, out);
+    const bool made = filtered && png_filter_rows(width, height, pixel, rgb, NULL, filtered) &&
+                      png_data_deflate(filtered, 0, size, true, out);
     free(filtered);
     return made;
 }

@@ -12,6 +12,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
+enum {
+    PNG_PIECE = 128 << 10,
+    PNG_WINDOW = 32 << 10, // that deflate looks back
+};
+
 // A part of the stream, which goes into a chunk of its own.
 struct png_piece {
     uint8_t *bytes; // from malloc
@@ -30,9 +35,16 @@ bool png_data_make(uint32_t width, uint32_t height, uint32_t pixel, const uint8_
 // Accepts what png_data_make left, whatever it returned.
 void png_data_finish(struct png_data *data);
 
+// The same of `size` filtered bytes, at least one, that follow `before` others: the last PNG_WINDOW of the
+// stream, or 0 where it begins. Unless the stream ends with them, `size` is a multiple of PNG_PIECE.
+bool png_data_deflate(const uint8_t *filtered, size_t before, size_t size, bool is_last,
+                      struct png_data *out);
+
 // ---- png_filter.c
 
-// Rows of pixel * width bytes, each after the number of its filter. false: no memory.
-bool png_filter_rows(uint32_t width, uint32_t height, uint32_t pixel, const uint8_t *rgb, uint8_t *filtered);
+// Rows of pixel * width bytes, each after the number of its filter. `above`: the row before them; NULL: they
+// are the first. false: no memory.
+bool png_filter_rows(uint32_t width, uint32_t height, uint32_t pixel, const uint8_t *rgb,
+                     const uint8_t *above, uint8_t *filtered);
 
 #endif

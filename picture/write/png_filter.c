@@ -16,7 +16,7 @@ enum {
 
 struct filtering {
     size_t row_bytes, pixel;
-    const uint8_t *rgb;
+    const uint8_t *rgb, *above; // above: the row before the first; NULL: there is none
     uint8_t *out;
     atomic_bool failed;
 };
@@ -95,8 +95,9 @@ static void filter_rows(void *context, size_t begin, size_t end) {
     rows.through[0] = rows.row;
     for (size_t i = 1; i < FILTERS; i++)
         rows.through[i] = memory + (i + 1) * (count + PIXEL_MOST);
-    if (begin > 0)
-        memcpy(rows.above, f->rgb + (begin - 1) * count, count);
+    const uint8_t *above = begin > 0 ? f->rgb + (begin - 1) * count : f->above;
+    if (above)
+        memcpy(rows.above, above, count);
     for (size_t y = begin; y < end; y++) {
         memcpy(rows.row, f->rgb + y * count, count);
         filter(&rows, count, f->pixel);
@@ -108,8 +109,10 @@ static void filter_rows(void *context, size_t begin, size_t end) {
     free(memory);
 }
 
-bool png_filter_rows(uint32_t width, uint32_t height, uint32_t pixel, const uint8_t *rgb, uint8_t *filtered) {
-    struct filtering f = {.row_bytes = (size_t)pixel * width, .pixel = pixel, .rgb = rgb, .out = filtered};
+bool png_filter_rows(uint32_t width, uint32_t height, uint32_t pixel, const uint8_t *rgb,
+                     const uint8_t *above, uint8_t *filtered) {
+    struct filtering f = {
+        .row_bytes = (size_t)pixel * width, .pixel = pixel, .rgb = rgb, .above = above, .out = filtered};
     parallel_for(height, ROWS, filter_rows, &f);
     return !f.failed;
 }

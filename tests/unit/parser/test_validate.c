@@ -68,11 +68,13 @@ static void bodies(void **state) {
 
 static void pictures(void **state) {
     (void)state;
-    loaded_check_twins(HEAD_YAML "image: {width: 16384, height: 16384}\n",
-                       HEAD_XML "<Image width=\"16384\" height=\"16384\"/>" END_XML, "E408",
-                       "the image has 16384 x 16384, that is 268435456 pixels; at most 67108864 are allowed");
-    loaded_check(HEAD_YAML "image: {width: 8192, height: 8192}\n", "", NULL);
-    loaded_check(HEAD_YAML "image: {width: 8193, height: 8192}\n", "E408", NULL);
+    loaded_check_twins(HEAD_YAML "image: {width: 16384, height: 16384, error: 0.1}\n",
+                       HEAD_XML "<Image width=\"16384\" height=\"16384\" error=\"0.1\"/>" END_XML, "E408",
+                       "the image has 16384 x 16384, that is 268435456 pixels; at most 67108864 are allowed "
+                       "where 'error' ends them");
+    loaded_check(HEAD_YAML "image: {width: 8192, height: 8192, error: 0.1}\n", "", NULL);
+    loaded_check(HEAD_YAML "image: {width: 8193, height: 8192, error: 0.1}\n", "E408", NULL);
+    loaded_check(HEAD_YAML "image: {width: 16384, height: 16384}\n", "", NULL);
     loaded_check(HEAD_YAML "image: {width: 99999, height: 16384}\n", "E206", NULL);
 }
 

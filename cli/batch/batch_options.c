@@ -1,5 +1,4 @@
-#include "cli/options/options_batch.h"
-
+// --frames, --fps, --sweep, --list, --montage and --keep-going.
 #include "cli/cli.h"
 #include "core/number.h"
 

@@ -1,0 +1,30 @@
+// One picture in bands while it is rendered. Private to cli/bands.
+#ifndef GLINT_CLI_BANDS_BANDS_RUN_H
+#define GLINT_CLI_BANDS_BANDS_RUN_H
+
+#include "app/parts/bands.h"
+#include "cli/render_job.h"
+
+#include <pthread.h>
+
+struct bands_run {
+    struct render_job *job;
+    uint32_t camera;
+    const char *path; // of the checkpoint
+    struct bands bands;
+    bool is_open;
+    uint32_t found; // bands that another process had made
+    struct image band;
+    // What devices that work side by side share.
+    pthread_mutex_t lock;
+    uint32_t next;                // the first band that nobody has taken
+    bool gives_up;                // a device or the disk has failed
+    struct render_statistics all; // of the bands that were made now
+};
+
+// The picture's files. A signal ends it: CLI_STOPPED.
+int bands_write(struct bands_run *run);
+// Files of what is there, beside the picture's.
+int bands_write_partial(struct bands_run *run);
+
+#endif
