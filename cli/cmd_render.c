@@ -193,6 +193,8 @@ static int render_by_device(struct render_job *job, uint32_t first, uint32_t end
     if (opened != SHOT_OK)
         return settle(job) != CLI_OK ? job->settled : render_failed(job, opened);
     for (uint32_t i = first; i < end && status == CLI_OK; i++) {
+        if (job->done && job->done[i])
+            continue;
         if (i != first && (opened = shot_turn(&job->shot, i)) != SHOT_OK)
             return render_failed(job, opened);
         if (!job->in_bands && !render_aim_at_part(job))
@@ -201,6 +203,19 @@ static int render_by_device(struct render_job *job, uint32_t first, uint32_t end
     }
     int reported = cli_report(job->cli, &job->session, !job->cli->options.quiet);
     return status != CLI_OK ? status : reported;
+}
+
+// --skip-done: what is there is not rendered again.
+static int leave_done(struct render_job *job, uint32_t *first, uint32_t end) {
+    int status = job->cli->options.batch.skip_done ? settle(job) : CLI_OK;
+    if (status != CLI_OK || !job->cli->options.batch.skip_done)
+        return status;
+    if (!cli_device_is_reference(job->cli))
+        status = open_device(job);
+    if (status != CLI_OK)
+        return status;
+    render_find_done(job, first, end);
+    return *first == end ? cli_report(job->cli, &job->session, !job->cli->options.quiet) : CLI_OK;
 }
 
 static int render_cameras(struct render_job *job) {
@@ -229,6 +244,9 @@ static int render_cameras(struct render_job *job) {
     if (fits != CLI_OK)
         return fits;
     uint32_t end = job->all_cameras ? cameras->count : first + 1;
+    fits = leave_done(job, &first, end);
+    if (fits != CLI_OK || first == end)
+        return fits;
     return exact ? render_by_reference(job, first, end) : render_by_device(job, first, end);
 }
 
@@ -326,7 +344,8 @@ int cmd_render(struct cli *cli) {
         return cli_usage(
             cli, cli->options.measure.time_arg,
             "'--time' works for one frame on a device: without --repeat and '--device reference'");
-    if (!noise_fits(&job) || render_judge_part(&job) != CLI_OK || render_judge_bands(&job) != CLI_OK)
+    if (!noise_fits(&job) || render_judge_part(&job) != CLI_OK || render_judge_bands(&job) != CLI_OK ||
+        render_judge_done(&job) != CLI_OK)
         return CLI_USAGE;
     if (cli->options.watch)
         return cmd_watch(cli);

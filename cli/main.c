@@ -126,7 +126,8 @@ static const struct cli_command commands[] = {
     {"merge", "OUT PART...", "join parts of a picture",
      "PARTs are files that 'glint render -o NAME.part' wrote with --region, --tile, --samples-from and\n"
      "--samples-to, in any order. They must be of one scene, size and settings, and each pixel and sample\n"
-     "must be there once. OUT has the same bytes as the picture that is rendered whole.\n\n"
+     "must be there once. OUT has the same bytes as the picture that is rendered whole. With --frames, OUT\n"
+     "and PARTs are names with %04d, and each frame is joined.\n\n"
      "  glint render scene.yaml --tile 1/2 -o 1.part\n"
      "  glint render scene.yaml --tile 2/2 -o 2.part\n"
      "  glint merge picture.png 1.part 2.part\n",

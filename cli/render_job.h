@@ -46,6 +46,7 @@ struct render_job {
     // Of what this job renders: all of the picture, unless the command line asks for less.
     struct part part;
     bool is_part, in_bands;
+    bool *done;         // by camera: --skip-done found it; NULL: not asked
     const char *record; // of the picture that parts make (part_file.h); NULL: there are none
 };
 
@@ -132,6 +133,11 @@ int render_plan_bands(struct render_job *job);
 struct shot_region render_first_region(struct render_job *job);
 // All bands of a camera's picture, and its files. An exit code: CLI_STOPPED if a signal came.
 int render_in_bands(struct render_job *job, uint32_t camera);
+// cli/pictures/done.c, --skip-done: whether the outputs can say that they are done; as render_judge_part.
+int render_judge_done(const struct render_job *job);
+// Finds the cameras whose outputs are all there, says so, and moves `first`
+// past those at the beginning. The session is settled, and the device open.
+void render_find_done(struct render_job *job, uint32_t *first, uint32_t end);
 
 // One frame, that ends in time if the command line says when. `cameras` is how many pictures
 // are still to be made, this one included.

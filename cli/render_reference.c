@@ -125,7 +125,7 @@ static int render_camera(struct render_job *job, uint32_t camera) {
 int render_by_reference(struct render_job *job, uint32_t first, uint32_t end) {
     int status = CLI_OK;
     for (uint32_t i = first; i < end && status == CLI_OK; i++)
-        status = render_camera(job, i);
+        status = job->done && job->done[i] ? CLI_OK : render_camera(job, i);
     int reported = cli_report(job->cli, &job->session, !job->cli->options.quiet);
     return status != CLI_OK ? status : reported;
 }

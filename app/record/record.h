@@ -63,6 +63,13 @@ struct record_read {
 void record_find(str file, struct record_read *out);
 // Reads a command that record_texts wrote. false: it is not one.
 bool record_read_command(str text, struct arena *arena, struct record_command *out);
+// The same of texts that are to be written, and of the line that a part carries (app/parts): "Software: ...",
+// a tab, "Scene hash: ..." and so on.
+void record_of_texts(const struct image_texts *texts, struct record_read *out);
+void record_of_line(str line, struct record_read *out);
+// Whether two records are of one picture: the same scene, version, device and settings, coded alike. Where
+// the scene is and an audit's note do not count. false also where one is no record.
+bool record_same(const struct record_read *a, const struct record_read *b, struct arena *arena);
 // "640x480"
 bool record_read_size(str text, int32_t *width, int32_t *height);
 

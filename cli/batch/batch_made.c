@@ -1,5 +1,6 @@
 // Pictures of a batch after tracing: encoded and written beside the next one's tracing.
 #include "cli/batch/batch_run.h"
+#include "cli/parts/part_made.h"
 #include "cli/pictures/provenance.h"
 #include "files/output.h"
 
@@ -22,9 +23,13 @@ static void encode(void *context) {
     }
     for (uint32_t i = 0; i < run->outputs.output_count && !has_sheet(run); i++) {
         const enum image_format format = run->outputs.outputs[i].format;
+        const bool is_part = run->outputs.outputs[i].is_part;
         made->image.coding = render_coding(&run->cli->options, format);
         made->image.texts = made->texts[i];
-        image_encode(&made->image, format, made->display, &made->files[i]);
+        if (is_part)
+            part_encode(&made->part, &made->files[i]);
+        else
+            image_encode(&made->image, format, made->display, &made->files[i]);
         // The disk takes milliseconds a file: they are not the next picture's.
         const str file = strbuf_view(&made->files[i]);
         made->errors[i] = made->files[i].failed ? 0 : output_whole(made->job->paths[i], file.ptr, file.len);
@@ -41,13 +46,17 @@ static struct image_texts texts_of(struct batch_run *run, enum image_format form
                                           .is_double = run->live.shot.flat.is_double,
                                           .format = format,
                                           .coding = render_coding(&run->cli->options, format)};
-    return has_film(run) || has_sheet(run) ? (struct image_texts){0}
-                                           : provenance_texts(run->cli, &provenance);
+    return has_film(run) || has_sheet(run) || run->outputs.is_part ? (struct image_texts){0}
+                                                                   : provenance_texts(run->cli, &provenance);
 }
 
 void batch_encode(struct batch_run *run, struct batch_made *made) {
     made->run = run;
     batch_note_scene(run, made);
+    made->part = run->outputs.part;
+    made->part.rgb = made->image.rgb;
+    if (run->outputs.is_part)
+        part_describe(run->cli, &run->live.shot, run->live.camera, &made->part);
     for (uint32_t i = 0; i < run->outputs.output_count; i++) {
         strbuf_clear(&made->files[i]);
         made->texts[i] = texts_of(run, run->outputs.outputs[i].format);

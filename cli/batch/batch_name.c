@@ -1,4 +1,5 @@
 // What the pictures of a batch are called.
+#include "app/frames/frame_name.h"
 #include "cli/batch/batch_job.h"
 #include "core/heap.h"
 #include "files/files.h"
@@ -35,7 +36,6 @@ static void add_safe(struct strbuf *out, str text) {
 // The words that follow '%'; digits before 'd' are its width. Returns what is after it; NULL: there is no
 // such word.
 static const char *add_word(const struct batch_job *job, const char *p, struct strbuf *out) {
-    char *end;
     if (*p == '%')
         strbuf_char(out, '%');
     else if (*p == 's')
@@ -44,13 +44,8 @@ static const char *add_word(const struct batch_job *job, const char *p, struct s
         add_safe(out, job->camera.len ? job->camera : STR("main"));
     else if (*p == 'v')
         add_safe(out, job->values);
-    else {
-        const long width = strtol(p, &end, 10);
-        if (*end != 'd' || width < 0 || width > 9 || *p == ' ' || *p == '+' || *p == '-')
-            return NULL;
-        strbuf_format(out, "%0*d", (int)width, job->has_frame ? (int)job->frame : (int)job->number);
-        return end + 1;
-    }
+    else
+        return frame_name_number(p, job->has_frame ? job->frame : (int32_t)job->number, out);
     return p + 1;
 }
 
@@ -87,11 +82,15 @@ static const char *with(struct cli *cli, const char *pattern, const char *more) 
 // Without -o all that differs is in the name; and --camera all adds the camera's name, as for one picture.
 static const char *pattern_of(const struct batch *batch, const struct cli_output *output) {
     const struct cli_batch *b = &batch->cli->options.batch;
+    const struct cli_part *tile = &batch->cli->options.part;
     const char *pattern = output->arg ? output->path : "%s.png";
     if (!output->arg && b->sweeps.count)
         pattern = with(batch->cli, pattern, ".%v");
     if (!output->arg && b->has_frames)
         pattern = with(batch->cli, pattern, ".%04d");
+    if (!output->arg && tile->tile_arg)
+        pattern = with(batch->cli, pattern,
+                       arena_format(&batch->cli->arena, ".%u-of-%u", tile->tile, tile->tiles).ptr);
     if (str_equal(batch->cli->options.camera, STR("all")) && !has_word(pattern, 'c'))
         pattern = with(batch->cli, pattern, ".%c");
     return pattern;

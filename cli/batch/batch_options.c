@@ -135,6 +135,8 @@ bool cli_batch_apply(struct cli *cli, int arg, enum cli_batch_option option, con
         b->montage = true;
         b->montage_arg = arg;
         return true;
+    case CLI_BATCH_SKIP_DONE:
+        return b->skip_done = true;
     case CLI_BATCH_KEEP_GOING:
         b->stops = value && strcmp(value, "no") == 0;
         if (!value || b->stops || strcmp(value, "yes") == 0)

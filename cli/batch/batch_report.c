@@ -49,6 +49,9 @@ void batch_tell(const struct batch_run *run) {
     const double seconds = clock_seconds() - run->cli->begun;
     if (c->failed)
         tell_failures(run);
+    if (c->skipped && !run->cli->options.quiet)
+        fprintf(stderr, "glint: %u of %u pictures %s done already\n", c->skipped, count,
+                c->skipped == 1 ? "is" : "are");
     if (run->cli->options.quiet || c->written == 0 || count == 0 || (run->batch.film && c->failed))
         return;
     const char *first = place_of(run, &run->batch.jobs.items[0]);
@@ -68,8 +71,8 @@ void batch_tell(const struct batch_run *run) {
 
 static void put_text(const struct batch_run *run, struct strbuf *out) {
     const struct batch_counts *c = &run->counts;
-    strbuf_format(out, "%u picture%s written, %u failed, from %u load%s\n", c->written, plural(c->written),
-                  c->failed, c->loads, plural(c->loads));
+    strbuf_format(out, "%u picture%s written, %u failed, %u done already, from %u load%s\n", c->written,
+                  plural(c->written), c->failed, c->skipped, c->loads, plural(c->loads));
     strbuf_format(out, "  %u mesh%s and %u image%s read, %u tree%s built and %u kept, %u pipeline%s made\n",
                   c->meshes_read, c->meshes_read == 1 ? "" : "es", c->images_read, plural(c->images_read),
                   c->trees_built, plural(c->trees_built), c->trees_kept, c->pipelines_made,
@@ -86,6 +89,7 @@ static void put_json(const struct batch_run *run, struct strbuf *out) {
     json_write_integer(&w, "pictures", run->batch.jobs.count);
     json_write_integer(&w, "written", c->written);
     json_write_integer(&w, "failed", c->failed);
+    json_write_integer(&w, "skipped", c->skipped);
     json_write_integer(&w, "loads", c->loads);
     json_write_integer(&w, "meshes_read", c->meshes_read);
     json_write_integer(&w, "images_read", c->images_read);

@@ -23,6 +23,7 @@ struct batch_made {
     struct strbuf *files;      // by output; one for a film
     int *errors;               // by output: errno of writing it, or 0
     struct image_texts *texts; // by output
+    struct part part;          // what is in the image, where a file of parts is written
     struct parallel_task task;
 };
 
@@ -43,8 +44,8 @@ struct batch_checkpoint {
 };
 
 struct batch_counts {
-    uint32_t faulty;                        // written with faulty pixels
-    uint32_t begun, written, failed, loads; // a picture with faulty pixels is written and failed
+    uint32_t faulty;                                 // written with faulty pixels
+    uint32_t begun, written, failed, skipped, loads; // a picture with faulty pixels is written and failed
     uint32_t meshes_read, images_read, trees_built, trees_kept, pipelines_made;
     double trace_seconds, device_seconds; // of frames; until the device was open
 };
@@ -62,12 +63,16 @@ struct batch_run {
     struct progress progress;
     struct batch_reading next;
     struct batch_made made[2];
+    struct live_loaded pending; // read, and not yet shown: --skip-done may need nothing of it
     struct batch_counts counts;
     const struct batch_job *first_failed;
     // Findings that were told: of which scene, load, and how many.
     const char *told_scene;
     uint32_t told_load, told_count;
-    bool is_load_good;
+    bool is_load_good, is_pending;
+    // What part of a job's picture is rendered: planned once for each, as mistakes are reported.
+    uint32_t planned; // 1 + the job's number; 0: none
+    int plan_status;
 };
 
 // batch_made.c: pictures after tracing

@@ -4,6 +4,8 @@
 // next scene is read and the last picture encoded, each on one more thread.
 #include "cli/batch/batch_run.h"
 #include "cli/device.h"
+#include "cli/parts/part_made.h"
+#include "cli/pictures/done.h"
 #include "core/clock.h"
 #include "grammar/ir.h"
 
@@ -25,10 +27,8 @@ static bool has_no_place(struct cli *cli) {
         {"audit", "an audit is of one picture"},
         {"max-off", "an audit is of one picture"},
         {"aov", "many pictures are written without what else is known of their pixels"},
-        {"region", "many pictures are whole ones"},
-        {"tile", "many pictures are whole ones"},
-        {"samples-from", "many pictures are whole ones"},
-        {"samples-to", "many pictures are whole ones"},
+        {"samples-from", "many pictures have all their samples; --tile and --region go with them"},
+        {"samples-to", "many pictures have all their samples; --tile and --region go with them"},
         {"noise", "the error of a picture is stated for one; set image.error in the scene"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
@@ -66,6 +66,14 @@ static int judge(struct batch_run *run) {
     if (b->fps > 0 && !b->has_frames && !run->batch.film &&
         cli_has_no_effect(cli, "fps", "there are no frames"))
         return CLI_USAGE;
+    if (run->batch.film &&
+        (cli_has_no_effect(cli, "tile", "a film has whole frames") ||
+         cli_has_no_effect(cli, "region", "a film has whole frames") ||
+         cli_has_no_effect(cli, "skip-done", "a film does not say how each of its frames was made")))
+        return CLI_USAGE;
+    if (b->montage && (cli_has_no_effect(cli, "tile", "a sheet has whole pictures") ||
+                       cli_has_no_effect(cli, "region", "a sheet has whole pictures")))
+        return CLI_USAGE;
     return has_no_place(cli) ? CLI_USAGE : CLI_OK;
 }
 
@@ -78,7 +86,10 @@ static int take_outputs(struct batch_run *run) {
     run->outputs.cli = cli;
     run->outputs.outputs = outputs->items;
     run->outputs.output_count = outputs->count;
-    return run->batch.film ? CLI_OK : render_take_outputs(&run->outputs);
+    int status = run->batch.film ? CLI_OK : render_take_outputs(&run->outputs);
+    if (status == CLI_OK)
+        status = render_judge_part(&run->outputs);
+    return status == CLI_OK ? render_judge_done(&run->outputs) : status;
 }
 
 // ---- reading the next scene
@@ -126,13 +137,30 @@ static void tell_findings(struct batch_run *run, const struct batch_job *job, bo
     run->told_count = session->sink.count;
 }
 
+static void drop_pending(struct batch_run *run) {
+    if (run->is_pending)
+        live_drop(run->pending);
+    run->is_pending = false;
+}
+
+// The next scene, which is shown once a picture of it is rendered.
+static void take_loaded(struct batch_run *run, uint32_t number) {
+    if (!is_other_load(run, number))
+        return;
+    const struct live_loaded loaded = end_reading(run);
+    drop_pending(run);
+    run->pending = loaded;
+    run->is_pending = true;
+    run->counts.loads++;
+}
+
 static enum live_state show(struct batch_run *run, uint32_t number) {
     const struct batch_job *job = &run->batch.jobs.items[number];
     struct batch_counts *c = &run->counts;
     enum live_state state = LIVE_BROKEN;
-    if (is_other_load(run, number)) {
-        state = live_show(&run->live, end_reading(run), job->camera);
-        c->loads++;
+    if (run->is_pending) {
+        run->is_pending = false;
+        state = live_show(&run->live, run->pending, job->camera);
         run->is_load_good = state == LIVE_SHOWN;
     } else if (run->is_load_good) {
         state = live_turn(&run->live, job->camera);
@@ -146,8 +174,40 @@ static enum live_state show(struct batch_run *run, uint32_t number) {
     return state;
 }
 
+// The camera of this name; IR_NO_INDEX: there is none, which showing it reports.
+static uint32_t camera_of(const struct session *session, str name) {
+    const struct ir_cameras *cameras = &session->scene->cameras;
+    for (uint32_t i = 0; i < cameras->count; i++)
+        if (str_equal(cameras->items[i].name, name))
+            return i;
+    return name.len ? IR_NO_INDEX : 0;
+}
+
+static int plan_part(struct batch_run *run, const struct batch_job *job, const struct session *session) {
+    run->outputs.session.image = session->image;
+    if (run->planned != job->number + 1)
+        run->plan_status = run->batch.film ? CLI_OK : render_plan_part(&run->outputs);
+    run->planned = job->number + 1;
+    return run->plan_status;
+}
+
+// --skip-done: whether all files of a picture are there.
+static bool is_done(struct batch_run *run, const struct batch_job *job) {
+    const struct session *session = run->is_pending ? run->pending.session : run->live.session;
+    if (!run->cli->options.batch.skip_done || !session || session->state != SESSION_LOADED ||
+        session->sink.errors || camera_of(session, job->camera) == IR_NO_INDEX)
+        return false;
+    if (plan_part(run, job, session) != CLI_OK)
+        return false;
+    const struct done_wish wish = {session, run->gpu, camera_of(session, job->camera), &run->outputs.part};
+    bool done = true;
+    for (uint32_t i = 0; i < run->outputs.output_count && done; i++)
+        done = done_is_there(run->cli, &run->outputs.outputs[i], job->paths[i], &wish);
+    run->counts.skipped += done;
+    return done;
+}
+
 static int fit_image(struct batch_run *run, struct image *image, const struct render_settings *settings) {
-    run->outputs.session.image = run->live.session->image;
     const int status = run->batch.film ? CLI_OK : render_judge_size(&run->outputs);
     if (status != CLI_OK ||
         (image->rgb && image->width == settings->width && image->height == settings->height))
@@ -164,7 +224,13 @@ static int fit_image(struct batch_run *run, struct image *image, const struct re
 static int trace(struct batch_run *run, const struct batch_job *job, struct batch_made *made) {
     struct render_statistics frame;
     const struct render_progress progress = progress_callback(&run->progress);
-    int status = fit_image(run, &made->image, &run->live.shot.settings);
+    int status = plan_part(run, job, run->live.session);
+    if (status == CLI_OK && run->outputs.is_part && !part_aim(&run->live.shot, &run->outputs.part)) {
+        progress_end(&run->progress);
+        return cli_device_failed(run->cli, run->gpu);
+    }
+    if (status == CLI_OK)
+        status = fit_image(run, &made->image, &run->live.shot.settings);
     if (status != CLI_OK)
         return status;
     const uint32_t errors = run->live.session->sink.errors;
@@ -188,9 +254,13 @@ static int render_one(struct batch_run *run, uint32_t number, struct batch_made 
     run->counts.begun++;
     run->progress.base = (double)number / count;
     run->progress.share = 1.0 / count;
-    const enum live_state state = show(run, number);
+    take_loaded(run, number);
+    const bool done = is_done(run, job);
+    const enum live_state state = done ? LIVE_BROKEN : show(run, number);
     if (number + 1 < count && is_other_load(run, number + 1))
         begin_reading(run, number + 1);
+    if (done)
+        return CLI_OK;
     if (state == LIVE_FAILED) {
         progress_end(&run->progress);
         return cli_device_failed(run->cli, run->gpu);
@@ -249,6 +319,7 @@ static int finish(struct batch_run *run, int status) {
     progress_end(&run->progress);
     if (next->is_under_way)
         live_drop(end_reading(run));
+    drop_pending(run);
     const bool whole = status == CLI_OK && run->counts.failed == 0;
     int last = CLI_OK;
     if (run->batch.film)

@@ -15,6 +15,7 @@ enum cli_batch_option {
     CLI_BATCH_LIST,
     CLI_BATCH_MONTAGE,
     CLI_BATCH_KEEP_GOING,
+    CLI_BATCH_SKIP_DONE,
 };
 
 struct cli_batch_values {
@@ -41,6 +42,7 @@ struct cli_batch {
     const char *list; // NULL: not given
     int list_arg;
     bool montage, stops; // stops: --keep-going=no
+    bool skip_done;
     int montage_arg;
 };
 

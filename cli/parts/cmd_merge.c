@@ -1,6 +1,11 @@
 // glint merge OUT PART...: parts of a picture, to the picture.
+#include "app/frames/frame_name.h"
 #include "app/parts/parts.h"
 #include "cli/parts/merge_rows.h"
+#include "cli/pictures/done.h"
+#include "cli/pictures/provenance.h"
+#include "cli/progress.h"
+#include "cli/render_job.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -95,6 +100,21 @@ static int merge_at_once(struct render_job *job, const uint32_t *order, uint32_t
     return status == CLI_OK ? render_write_pictures(job, 0) : status;
 }
 
+// --skip-done: what the parts say of how they were made, the picture says too.
+static bool is_done(struct render_job *job) {
+    struct cli *cli = job->cli;
+    const struct cli_output *output = &job->outputs[0];
+    if (!cli->options.batch.skip_done || !job->record || !*job->record)
+        return false;
+    const struct image_texts texts =
+        provenance_of_line(cli, job->record, output->format, render_coding(&cli->options, output->format));
+    const bool done = done_picture(cli, output->path, &texts);
+    if (done && !cli->options.quiet)
+        fprintf(stderr, "glint: %s is done already\n", output->path);
+    return done;
+}
+
+// Joins the operands.
 static int merge(struct render_job *job) {
     struct cli *cli = job->cli;
     const uint32_t count = (uint32_t)cli->operand_count - 1;
@@ -112,6 +132,12 @@ static int merge(struct render_job *job) {
     for (uint32_t i = 1; i < count; i++)
         if (strcmp(parts[i].record, parts->record) != 0)
             job->record = NULL;
+    if (is_done(job))
+        return CLI_OK;
+    if (!image_init(&job->image, parts->width, parts->height)) {
+        cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory for the picture");
+        return CLI_SCENE;
+    }
     job->image_made.tone = parts->display.tone;
     job->image_made.transfer = parts->display.transfer;
     job->session.image = &job->image_made;
@@ -125,9 +151,94 @@ static int merge(struct render_job *job) {
     return status;
 }
 
-int cmd_merge(struct cli *cli) {
+static int merge_once(struct cli *cli) {
     struct render_job job = {.cli = cli};
     const int status = merge(&job);
     image_finish(&job.image);
     return status;
+}
+
+// ---- frames
+
+// An operand's name in a frame; NULL: a '%' in it is followed by something else, or no memory.
+static char *name_in_frame(struct cli *cli, const char *pattern, int32_t frame) {
+    struct strbuf name;
+    strbuf_init(&name);
+    const bool good = frame_name(pattern, frame, &name) && !name.failed;
+    char *copy = good ? (char *)arena_copy(&cli->arena, strbuf_view(&name)).ptr : NULL;
+    strbuf_finish(&name);
+    return copy;
+}
+
+// The operands of a frame; CLI_OK, or CLI_USAGE with the mistake reported.
+static int name_operands(struct cli *cli, char **patterns, int32_t frame, char **names) {
+    for (int i = 0; i < cli->operand_count; i++) {
+        names[i] = name_in_frame(cli, patterns[i], frame);
+        if (names[i])
+            continue;
+        const int status = cli_usage(cli, cli_operand_place(cli, i),
+                                     "'%%' in '%s' is followed by no word that is known", patterns[i]);
+        diag_help(&cli->sink, "%%d or %%04d is the frame, and %%%% a percent sign");
+        return status;
+    }
+    return CLI_OK;
+}
+
+// Each frame needs names of its own.
+static int judge_patterns(struct cli *cli, char **patterns) {
+    const struct cli_batch *b = &cli->options.batch;
+    char **first = ARENA_ARRAY(&cli->arena, char *, (size_t)cli->operand_count);
+    char **last = ARENA_ARRAY(&cli->arena, char *, (size_t)cli->operand_count);
+    int status = name_operands(cli, patterns, b->first_frame, first);
+    if (status == CLI_OK)
+        status = name_operands(cli, patterns, b->last_frame, last);
+    for (int i = 0; i < cli->operand_count && status == CLI_OK && b->last_frame > b->first_frame; i++)
+        if (strcmp(first[i], last[i]) == 0) {
+            status = cli_usage(cli, cli_operand_place(cli, i), "'%s' would be the same file in all frames",
+                               patterns[i]);
+            diag_help(&cli->sink, "write the frame's number into the name: %%04d");
+        }
+    return status;
+}
+
+// The operands become these names, at the places on the command line that the patterns have.
+static void take_names(struct cli *cli, char **argv, char **patterns, char **names) {
+    for (int i = 0; i < cli->argc; i++)
+        for (int k = 0; k < cli->operand_count; k++)
+            if (argv[i] == patterns[k])
+                cli->argv[i] = names[k];
+    cli->operands = names;
+}
+
+// A frame that fails is reported, and the others are joined.
+static int merge_frames(struct cli *cli) {
+    const struct cli_batch *b = &cli->options.batch;
+    char **patterns = cli->operands, **argv = cli->argv;
+    uint32_t failed = 0, count = 0;
+    int status = judge_patterns(cli, patterns);
+    if (status != CLI_OK)
+        return status;
+    interrupt_catch();
+    cli->argv = ARENA_ARRAY(&cli->arena, char *, (size_t)cli->argc + 1);
+    for (int64_t frame = b->first_frame; frame <= b->last_frame; frame += b->frame_step, count++) {
+        char **names = ARENA_ARRAY(&cli->arena, char *, (size_t)cli->operand_count);
+        cli->argv = memcpy(cli->argv, argv, (size_t)cli->argc * sizeof *argv);
+        status = name_operands(cli, patterns, (int32_t)frame, names);
+        if (interrupt_signal())
+            return cli_interrupted(cli);
+        take_names(cli, argv, patterns, names);
+        cli->options.outputs.count = 0;
+        status = status == CLI_OK ? merge_once(cli) : status;
+        if (status != CLI_OK) {
+            failed++;
+            fprintf(stderr, "glint: failed: %s\n", names[0]);
+        }
+    }
+    if (failed)
+        fprintf(stderr, "glint: %u of %u pictures failed\n", failed, count);
+    return failed ? CLI_SCENE : CLI_OK;
+}
+
+int cmd_merge(struct cli *cli) {
+    return cli->options.batch.has_frames ? merge_frames(cli) : merge_once(cli);
 }

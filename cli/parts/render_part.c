@@ -1,6 +1,7 @@
 // A render job that makes a part of a picture.
 #include "app/parts/parts.h"
 #include "cli/device.h"
+#include "cli/parts/part_made.h"
 #include "cli/pictures/provenance.h"
 #include "cli/render_job.h"
 #include "core/hash128.h"
@@ -145,11 +146,7 @@ int render_plan_part(struct render_job *job) {
 
 // ---- rendering it
 
-bool render_aim_at_part(struct render_job *job) {
-    struct shot *shot = &job->shot;
-    const struct part *part = &job->part;
-    if (!job->is_part)
-        return true;
+bool part_aim(struct shot *shot, const struct part *part) {
     shot->settings.width = part->region.width;
     shot->settings.height = part->region.height;
     shot->settings.whole_width = part->width;
@@ -161,6 +158,10 @@ bool render_aim_at_part(struct render_job *job) {
     shot->settings.samples =
         part_planes(part) > 1 || part->samples > part->end_sample - part->first_sample ? 1 : part->samples;
     return renderer_change(shot->renderer, &shot->flat, &shot->settings);
+}
+
+bool render_aim_at_part(struct render_job *job) {
+    return !job->is_part || part_aim(&job->shot, &job->part);
 }
 
 static size_t plane_floats(const struct part *part) {
@@ -195,28 +196,31 @@ enum shot_status render_take_part(struct render_job *job, const struct render_pr
 
 // ---- its file
 
-static void make_keys(struct render_job *job) {
-    const struct shot *shot = &job->shot;
-    const struct reference_input input = {.scene = &job->session.resolved, .view = &shot->view};
+static void make_keys(const struct shot *shot, struct part *part) {
+    const struct reference_input input = {.scene = &shot->session->resolved, .view = &shot->view};
     struct hash128 h;
-    reference_input_key(&input, job->part.scene);
+    reference_input_key(&input, part->scene);
     hash128_begin(&h);
     hash128_text(&h, STR(GLINT_VERSION));
     hash128_whole(&h, shot->flat.is_double);
     hash128_whole(&h, shot->settings.features);
     hash128_whole(&h, shot->settings.path_segments);
-    hash128_end(&h, job->part.settings);
+    hash128_end(&h, part->settings);
+}
+
+void part_describe(struct cli *cli, const struct shot *shot, uint32_t camera, struct part *part) {
+    make_keys(shot, part);
+    snprintf(part->device, sizeof part->device, "%s", gpu_info(shot->gpu)->name);
+    const struct provenance made = {.session = shot->session,
+                                    .gpu = shot->gpu,
+                                    .camera = camera,
+                                    .is_double = shot->flat.is_double,
+                                    .format = IMAGE_PNG};
+    provenance_line(cli, &made, part->record, sizeof part->record);
 }
 
 void render_fill_part(struct render_job *job) {
-    make_keys(job);
-    snprintf(job->part.device, sizeof job->part.device, "%s", gpu_info(job->gpu)->name);
-    const struct provenance made = {.session = &job->session,
-                                    .gpu = job->gpu,
-                                    .camera = job->camera,
-                                    .is_double = job->shot.flat.is_double,
-                                    .format = IMAGE_PNG};
-    provenance_line(job->cli, &made, job->part.record, sizeof job->part.record);
+    part_describe(job->cli, &job->shot, job->camera, &job->part);
 }
 
 void render_encode_part(struct render_job *job, struct strbuf *out) {

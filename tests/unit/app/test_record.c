@@ -114,11 +114,53 @@ static void files_carry_texts(void **state) {
     }
 }
 
+// Two records are of one picture, wherever the scene was; each other difference counts.
+static void the_same_picture(void **state) {
+    static const char line[] = "Software: glint 1\tScene hash: 12ab\tDevice: a: b\tSettings: 2 x 3 pixels\t"
+                               "Command: glint render a.yaml --size 2x3 --samples 4";
+    static const char *const others[][2] = {
+        {"glint 1", "glint 2"},
+        {"12ab", "12ac"},
+        {"a: b", "a: c"},
+        {"2 x 3", "2 x 4"},
+        {"samples 4", "samples 4 --device reference"},
+        {"samples 4", "samples 4 --depth 16"},
+        {"samples 4", "samples 4 --noise 0.1"},
+        {"samples 4", "samples 4 --quality 7"},
+        {"samples 4", "samples four"},
+        {"Command: ", "Order: "},
+        {"samples 4", "samples 4\tScaled: 4x6"},
+    };
+    struct arena arena;
+    struct record_read a, b;
+    (void)state;
+    arena_init(&arena, SIZE_MAX);
+    record_of_line(str_from(line), &a);
+    assert_true(a.is_there);
+    assert_true(str_equal_cstr(a.fields[RECORD_DEVICE], "a: b"));
+    record_of_line(STR("Software: glint 1\tScene hash: 12ab\tDevice: a: b\tSettings: 2 x 3 pixels\tCommand: "
+                       "glint render 'other place/b.xml' --size 2x3 --samples 4 --asset-path x --audit"),
+                   &b);
+    assert_true(record_same(&a, &b, &arena));
+    for (uint32_t i = 0; i < sizeof others / sizeof *others; i++) {
+        const char *at = strstr(line, others[i][0]);
+        const str text =
+            arena_format(&arena, "%.*s%s%s", (int)(at - line), line, others[i][1], at + strlen(others[i][0]));
+        record_of_line(text, &b);
+        if (record_same(&a, &b, &arena) || record_same(&b, &a, &arena))
+            fail_msg("the same: %s", text.ptr);
+    }
+    record_of_line(STR(""), &b);
+    assert_false(b.is_there || record_same(&a, &b, &arena) || record_same(&b, &b, &arena));
+    arena_finish(&arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(words_come_back),
         cmocka_unit_test(wrong_commands_are_refused),
         cmocka_unit_test(files_carry_texts),
+        cmocka_unit_test(the_same_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
