@@ -97,6 +97,10 @@ struct filling {
     const char *root;
 };
 
+static int compare_paths(const void *a, const void *b) {
+    return str_compare(((const struct report_file *)a)->path, ((const struct report_file *)b)->path);
+}
+
 static void fill_assets(void *context) {
     const struct filling *filling = context;
     struct report_scene *out = filling->out;
@@ -115,6 +119,8 @@ static void fill_assets(void *context) {
         str path = arena_copy(&out->arena, report_path(&out->arena, filling->root, read->path));
         a->files[a->file_count++] = (struct report_file){path, read->size_bytes};
     }
+    // In which order meshes are read depends on how many processors there are.
+    qsort(a->files, a->file_count, sizeof *a->files, compare_paths);
     out->has_assets = true;
 }
 

@@ -123,7 +123,7 @@ static void no_device(struct cli *cli, const char *place, const char *error) {
 static int report_opening(struct cli *cli, enum gpu_status status, const char *error) {
     const char *wanted = cli_device_wanted(cli);
     const char *asked = cli->options.device ? "--device" : wanted ? "GLINT_DEVICE" : "device";
-    if (status == GPU_OK)
+    if (CLI_HAS_DEVICES && status == GPU_OK)
         return CLI_OK;
     if (status == GPU_LEFT_OUT)
         left_out(cli, "device", error);
@@ -237,7 +237,7 @@ struct cli_opening *cli_begin_opening(struct cli *cli, struct timeline *timeline
 bool cli_opening_is_good(struct cli_opening *opening) {
     if (opening)
         parallel_wait(&opening->task);
-    return opening && opening->status == GPU_OK;
+    return CLI_HAS_DEVICES && opening && opening->status == GPU_OK;
 }
 
 int cli_end_opening(struct cli *cli, struct cli_opening **opening, struct gpu **gpu, double *seconds) {

@@ -42,9 +42,9 @@ library() {
     name=$(basename "$source")
     echo "tools/web.sh: $name"
     {
-        emcmake cmake -G Ninja -S "$source" -B "build/$name" -DCMAKE_BUILD_TYPE=MinSizeRel -DCMAKE_INSTALL_PREFIX="$folder/root" \
+        emcmake cmake -G Ninja -S "$source" -B "build/$name" -DCMAKE_BUILD_TYPE=MinSizeRel -DCMAKE_C_FLAGS_MINSIZEREL="-Oz -DNDEBUG" -DCMAKE_INSTALL_PREFIX="$folder/root" \
             -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_FIND_ROOT_PATH="$folder/root" -DBUILD_SHARED_LIBS=OFF \
-            -DCMAKE_C_FLAGS="-ffp-contract=off" "$@" &&
+            -DCMAKE_C_FLAGS="-ffp-contract=off $lto" "$@" &&
             cmake --build "build/$name" --parallel 2 && cmake --install "build/$name"
     } >"build-$name.log" 2>&1 || {
         tail -n 40 "build-$name.log"
@@ -62,12 +62,12 @@ zlib() {
     echo "tools/web.sh: zlib and minizip"
     (
         cd sources/zlib-*
-        CFLAGS="-Os" emconfigure ./configure --static --prefix="$folder/root"
+        CFLAGS="-Oz $lto" emconfigure ./configure --static --prefix="$folder/root"
         emmake make -j2 libz.a
         emmake make install
         cd contrib/minizip
         for file in zip unzip ioapi; do
-            emcc -Os -DNOCRYPT -DNOUNCRYPT -DUSE_FILE32API -I../.. -c "$file.c" -o "$file.o"
+            emcc -Oz $lto -DNOCRYPT -DNOUNCRYPT -DUSE_FILE32API -I../.. -c "$file.c" -o "$file.o"
         done
         emar rcs "$folder/root/lib/libminizip.a" zip.o unzip.o ioapi.o
         mkdir -p "$folder/root/include/minizip"
@@ -80,13 +80,17 @@ zlib() {
 }
 export NODE_PATH="${NODE_PATH:-/usr/share/nodejs}" # where Debian keeps what emscripten needs of node
 mkdir -p build
+lto=-flto # what glint never calls is left out with it
 library sources/libyaml-* -DBUILD_TESTING=OFF
 package yaml-0.1 yaml "$(basename sources/libyaml-* | sed 's/.*-//')"
 library "$(ls -d sources/expat-*/expat)" -DEXPAT_BUILD_TOOLS=OFF -DEXPAT_BUILD_EXAMPLES=OFF -DEXPAT_BUILD_TESTS=OFF \
-    -DEXPAT_SHARED_LIBS=OFF -DEXPAT_BUILD_DOCS=OFF -DEXPAT_DTD=OFF -DCMAKE_C_FLAGS="-ffp-contract=off -DXML_DTD=1" # patched: == 1
+    -DEXPAT_SHARED_LIBS=OFF -DEXPAT_BUILD_DOCS=OFF -DEXPAT_DTD=OFF -DEXPAT_NS=OFF -DEXPAT_CONTEXT_BYTES=0 -DEXPAT_MIN_SIZE=ON -DCMAKE_C_FLAGS="-ffp-contract=off $lto -DXML_DTD=1" # patched: == 1
 library sources/jansson-* -DJANSSON_BUILD_DOCS=OFF -DJANSSON_WITHOUT_TESTS=ON -DJANSSON_EXAMPLES=OFF
 zlib
 library sources/libpng1.6-* -DPNG_SHARED=OFF -DPNG_TESTS=OFF -DPNG_EXECUTABLES=OFF -DPNG_HARDWARE_OPTIMIZATIONS=OFF
-library sources/libjpeg-turbo-* -DWITH_SIMD=OFF -DWITH_TURBOJPEG=OFF -DENABLE_SHARED=OFF \
+# What glint never asks libjpeg for: its header of capabilities is meant to be edited.
+sed -i -E 's/^#define +((UPSAMPLE_MERGING|QUANT_1PASS|QUANT_2PASS|IDCT_SCALING|DCT_IFAST|DCT_FLOAT)_SUPPORTED)/#undef \1/' \
+    sources/libjpeg-turbo-*/jmorecfg.h
+library sources/libjpeg-turbo-* -DWITH_SIMD=OFF -DWITH_TURBOJPEG=OFF -DWITH_ARITH_ENC=OFF -DWITH_ARITH_DEC=OFF -DENABLE_SHARED=OFF \
     -DCMAKE_INSTALL_LIBDIR="$folder/root/lib" -DHAVE_SIZE_T=TRUE -DSIZE_T=4 -DHAVE_UNSIGNED_LONG=TRUE -DUNSIGNED_LONG=4 # its own look at a program finds none
 rm -rf apt build sources sources.log build-*.log

@@ -76,6 +76,10 @@ const char *image_format_missing(enum image_format format) {
     if (format == IMAGE_WEBP)
         return "this glint was built without WebP (Debian's package libwebp-dev)";
 #endif
+#ifndef GLINT_HAS_JPEG_WRITER
+    if (format == IMAGE_JPEG)
+        return "this glint was built without a writer of JPEG, to be small (GLINT_JPEG_WRITER=OFF)";
+#endif
     (void)format;
     return NULL;
 }

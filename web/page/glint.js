@@ -1,0 +1,96 @@
+// A worker with glint in it, seen from the page: files go in, commands and messages of a language client are answered.
+
+export class Cancelled extends Error {}
+
+export class Glint {
+  // `module`: compiled; `files()`: all that the scene's folder holds, by path, for a worker that starts.
+  constructor(module, files) {
+    this.module = module;
+    this.files = files;
+    this.listeners = new Set();
+    this.next = 0;
+    this.spare = null;
+    this.start();
+  }
+
+  fresh() {
+    const worker = new Worker('worker.js');
+    worker.postMessage({ module: this.module });
+    return worker;
+  }
+
+  start() {
+    this.waiting = new Map();
+    this.worker = this.spare || this.fresh();
+    this.spare = null;
+    this.worker.onmessage = ({ data }) => this.take(data);
+    this.worker.onerror = (event) => this.died(event.message || 'the worker could not start');
+    this.worker.postMessage({ files: Object.fromEntries(this.files()) });
+  }
+
+  take(data) {
+    if (data.lsp !== undefined) {
+      for (const listener of this.listeners) listener(data.lsp);
+    } else if (data.died !== undefined) {
+      this.died(data.died);
+    } else {
+      const { resolve } = this.waiting.get(data.id);
+      this.waiting.delete(data.id);
+      resolve(data);
+    }
+  }
+
+  // Memory or stack ended: what waits is told so, and another worker takes the next command.
+  died(why) {
+    const waiting = this.waiting;
+    this.worker.terminate();
+    this.start();
+    for (const { reject } of waiting.values()) reject(new Error(why));
+    if (this.onRestart) this.onRestart();
+  }
+
+  // Ends what is being done, at once. The next worker begins while this one still works, so that it is ready then.
+  prepare() {
+    this.spare = this.spare || this.fresh();
+  }
+  cancel() {
+    if (!this.waiting.size) return;
+    const waiting = this.waiting;
+    this.worker.terminate();
+    this.start();
+    for (const { reject } of waiting.values()) reject(new Cancelled());
+  }
+
+  put(files, gone = []) {
+    this.worker.postMessage({ files, gone });
+  }
+
+  // {status, out, err, files}
+  run(words, take = []) {
+    const id = this.next++;
+    return new Promise((resolve, reject) => {
+      this.waiting.set(id, { resolve, reject });
+      this.worker.postMessage({ id, words, take });
+    });
+  }
+
+  // ---- as a transport of a language client
+
+  send(text) {
+    this.worker.postMessage({ lsp: text });
+  }
+  subscribe(listener) {
+    this.listeners.add(listener);
+  }
+  unsubscribe(listener) {
+    this.listeners.delete(listener);
+  }
+}
+
+// Compiled once for all workers.
+export async function compile() {
+  const response = await fetch('glint.wasm');
+  if (!response.ok) throw new Error(`glint.wasm: ${response.status} ${response.statusText}`);
+  if ((response.headers.get('content-type') || '').startsWith('application/wasm')) return WebAssembly.compileStreaming(response);
+  return WebAssembly.compile(await response.arrayBuffer());
+}

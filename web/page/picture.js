@@ -1,0 +1,105 @@
+// The picture of a scene, coarse to fine, by the reference tracer in a worker. What is drawn last is, byte for byte, the file
+// that `glint render SCENE --device reference --as-file` writes.
+import { Cancelled } from './glint.js';
+
+const PARTS = [8, 4, 2, 1]; // of width and height, with one sample per pixel
+const LEAST = 24; // pixels across: coarser ones show nothing
+const SHORT_MS = 60; // a pass that ends soon is waited for
+
+const TRACER = ['--device', 'reference', '--as-file', '--no-cache', '--quiet', '--color', 'never'];
+
+// Of what `glint inspect --ir` prints.
+function understood(text) {
+  const number = (name, normal) => {
+    const found = new RegExp(`^image:(?:\\n +.*)*?\\n +${name}: (\\d+)$`, 'm').exec(text);
+    return found ? +found[1] : normal;
+  };
+  const cameras = /^cameras:((?:\n +.*)*)/m.exec(text);
+  const names = cameras ? [...cameras[1].matchAll(/^ {2}(\S.*):$/gm)].map(([, name]) => (name.startsWith('"') ? JSON.parse(name) : name)) : [];
+  return { width: number('width', 640), height: number('height', 480), samples: number('samples', 1), cameras: names };
+}
+
+export class Picture {
+  // `told({part, ms, whole, failed})` after each pass; `seen(understood)` when the text was.
+  constructor({ glint, canvas, told, seen }) {
+    Object.assign(this, { glint, canvas, told, seen });
+    this.camera = '';
+    this.wanted = null;
+    this.began = 0;
+    this.whole = null; // the file of the whole picture
+    this.working = false;
+  }
+
+  // The scene at `path`, whose files the worker has. A picture that is being made is given up.
+  draw(path) {
+    this.wanted = path;
+    this.whole = null;
+    if (this.began && performance.now() - this.began > SHORT_MS) this.glint.cancel();
+    if (!this.working) this.work();
+  }
+
+  async work() {
+    this.working = true;
+    while (this.wanted) {
+      const path = this.wanted;
+      this.wanted = null;
+      try {
+        await this.passes(path);
+      } catch (error) {
+        if (!(error instanceof Cancelled)) this.told({ failed: error.message });
+      }
+    }
+    this.working = false;
+  }
+
+  async run(words, take) {
+    this.began = performance.now();
+    const long = setTimeout(() => this.glint.prepare(), SHORT_MS);
+    try {
+      const answer = await this.glint.run(words, take);
+      return { ...answer, ms: performance.now() - this.began };
+    } finally {
+      clearTimeout(long);
+      this.began = 0;
+    }
+  }
+
+  async passes(path) {
+    const { status, out } = await this.run(['inspect', '--ir', '--skip-pixels', '--color', 'never', path]);
+    if (status !== 0) {
+      this.told({ failed: '' }); // the findings say why
+      return;
+    }
+    if (this.wanted) return;
+    const scene = understood(out);
+    if (!scene.cameras.includes(this.camera)) this.camera = '';
+    this.seen(scene);
+    const passes = PARTS.filter((part) => part === 1 || scene.width / part >= LEAST).map((part) => ({
+      part,
+      words: ['--size', `${Math.ceil(scene.width / part)}x${Math.ceil(scene.height / part)}`, '--samples', '1'],
+    }));
+    if (scene.samples === 1) passes.pop();
+    passes.push({ part: 1, words: [], whole: true });
+    for (const { part, words, whole } of passes) {
+      const camera = this.camera ? ['--camera', this.camera] : [];
+      const { status, err, files, ms } = await this.run(['render', path, ...TRACER, ...camera, ...words, '-o', '/picture.png'], ['/picture.png']);
+      if (status !== 0) {
+        this.told({ failed: err });
+        return;
+      }
+      if (this.wanted && !whole) return;
+      await this.show(files['/picture.png'], scene);
+      if (whole) this.whole = files['/picture.png'];
+      this.told({ part, ms, whole: !!whole, samples: whole ? scene.samples : 1, width: scene.width, height: scene.height });
+    }
+  }
+
+  async show(png, { width, height }) {
+    const image = await createImageBitmap(new Blob([png], { type: 'image/png' }), { colorSpaceConversion: 'none' });
+    if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
+    const context = this.canvas.getContext('2d');
+    context.imageSmoothingEnabled = false;
+    context.drawImage(image, 0, 0, width, height);
+    image.close();
+  }
+}
