@@ -94,3 +94,20 @@ void parallel_wait(struct parallel_task *task) {
 bool parallel_is_over(struct parallel_task *task) {
     return !task->work || task->over;
 }
+
+// A default mutex needs nothing that could fail.
+void parallel_lock_begin(struct parallel_lock *lock) {
+    pthread_mutex_init(&lock->mutex, NULL);
+}
+
+void parallel_lock_take(struct parallel_lock *lock) {
+    pthread_mutex_lock(&lock->mutex);
+}
+
+void parallel_lock_give(struct parallel_lock *lock) {
+    pthread_mutex_unlock(&lock->mutex);
+}
+
+void parallel_lock_end(struct parallel_lock *lock) {
+    pthread_mutex_destroy(&lock->mutex);
+}

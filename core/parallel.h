@@ -43,4 +43,13 @@ void parallel_wait(struct parallel_task *task);
 // Whether parallel_wait would return at once.
 bool parallel_is_over(struct parallel_task *task);
 
+// What several of them change is changed by one at a time: between taking the lock and giving it back.
+struct parallel_lock {
+    pthread_mutex_t mutex;
+};
+void parallel_lock_begin(struct parallel_lock *lock);
+void parallel_lock_take(struct parallel_lock *lock);
+void parallel_lock_give(struct parallel_lock *lock);
+void parallel_lock_end(struct parallel_lock *lock);
+
 #endif

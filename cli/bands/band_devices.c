@@ -41,12 +41,12 @@ bool bands_spread(const struct cli *cli) {
 
 uint32_t bands_claim(struct bands_run *run) {
     uint32_t band = run->bands.count;
-    pthread_mutex_lock(&run->lock);
+    parallel_lock_take(&run->lock);
     while (run->next < run->bands.count && run->bands.done[run->next])
         run->next++;
     if (run->next < run->bands.count && !run->gives_up && interrupt_signal() == 0)
         band = run->next++;
-    pthread_mutex_unlock(&run->lock);
+    parallel_lock_give(&run->lock);
     return band;
 }
 
@@ -108,11 +108,11 @@ bool bands_keep(struct bands_run *run, uint32_t band, const float *rgb,
                 const struct render_settings *settings, const struct render_statistics *made) {
     struct bands_faults faults;
     pack_faults(settings, made->faults, &faults);
-    pthread_mutex_lock(&run->lock);
+    parallel_lock_take(&run->lock);
     add_statistics(&run->all, made);
     const bool kept = bands_put(&run->bands, band, rgb, &faults);
     run->gives_up |= !kept;
-    pthread_mutex_unlock(&run->lock);
+    parallel_lock_give(&run->lock);
     return kept;
 }
 
@@ -139,9 +139,9 @@ static void work(void *context) {
     struct bands_run *run = d->run;
     for (uint32_t band; d->status == CLI_OK && (band = bands_claim(run)) < run->bands.count;)
         d->status = take_band(d, band);
-    pthread_mutex_lock(&run->lock);
+    parallel_lock_take(&run->lock);
     run->gives_up |= d->status == CLI_DEVICE;
-    pthread_mutex_unlock(&run->lock);
+    parallel_lock_give(&run->lock);
 }
 
 static bool is_equal(const struct gpu_device_info *a, const struct gpu_device_info *b) {

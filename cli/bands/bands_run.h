@@ -4,8 +4,7 @@
 
 #include "app/parts/bands.h"
 #include "cli/render_job.h"
-
-#include <pthread.h>
+#include "core/parallel.h"
 
 struct bands_run {
     struct render_job *job;
@@ -16,7 +15,7 @@ struct bands_run {
     uint32_t found; // bands that another process had made
     struct image band;
     // What devices that work side by side share.
-    pthread_mutex_t lock;
+    struct parallel_lock lock;
     uint32_t next;                // the first band that nobody has taken
     bool gives_up;                // a device or the disk has failed
     struct render_statistics all; // of the bands that were made now

@@ -237,9 +237,9 @@ static int take_band(struct bands_run *run, uint32_t band) {
 }
 
 static void give_up(struct bands_run *run) {
-    pthread_mutex_lock(&run->lock);
+    parallel_lock_take(&run->lock);
     run->gives_up = true;
-    pthread_mutex_unlock(&run->lock);
+    parallel_lock_give(&run->lock);
 }
 
 static int take_bands(struct bands_run *run) {
@@ -308,7 +308,7 @@ static void note_statistics(struct bands_run *run, double seconds) {
 
 int render_in_bands(struct render_job *job, uint32_t camera) {
     struct bands_run run = {.job = job, .camera = camera};
-    pthread_mutex_init(&run.lock, NULL);
+    parallel_lock_begin(&run.lock);
     job->progress.patience = PROGRESS_PATIENCE;
     int status = open_checkpoint(&run);
     const double start = clock_seconds();
@@ -330,6 +330,6 @@ int render_in_bands(struct render_job *job, uint32_t camera) {
     else if (run.is_open)
         bands_finish(&run.bands);
     image_finish(&run.band);
-    pthread_mutex_destroy(&run.lock);
+    parallel_lock_end(&run.lock);
     return status;
 }

@@ -25,7 +25,7 @@ struct cli_part {
     int samples_arg;
     int32_t samples_from, samples_to; // samples_to 0: to the last
     int bands_arg, resume_arg, partial_arg;
-    bool spreads; // over several devices
+    bool spreads;      // over several devices
     int32_t band_rows; // 0: as many as take a few seconds
 };
 

@@ -6,5 +6,6 @@ const char *const cli_purpose =
 const char *const cli_exits =
     "Exit status: 0 no error; 1 errors in the scene; 2 usage; 3 a file named on the command "
     "line cannot be\n"
-    "read or written, or memory ran out; 4 no usable device; 130 or 143 interrupted;\n"
+    "read or written, or memory ran out; 4 no usable device;\n"
+    "75 stopped, and --resume goes on; 130 or 143 interrupted;\n"
     "141 the reader of standard output is gone.\n";
