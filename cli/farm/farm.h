@@ -37,7 +37,7 @@ struct farm_plan {
     bool is_measured;
 };
 
-// farm_options.c: the plan that the command line asks for, but for its chunk. CLI_OK, or an exit code with
+// farm_plan.c: the plan that the command line asks for, but for its chunk. CLI_OK, or an exit code with
 // the mistake reported.
 int farm_plan_make(struct cli *cli, struct farm_plan *plan);
 // farm_file.c: whether the folder can take the plan; makes it. An exit code.

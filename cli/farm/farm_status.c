@@ -93,7 +93,7 @@ static void read_log(struct farm_state *s, uint32_t number) {
         for (const char *p = line; (p = strchr(p, '\n')) && p[1]; p++)
             line = p + 1;
         const char *host = value_in(line, "\"host\": \""), *status = value_in(line, "\"status\": ");
-        task->status = status ? atoi(status) : 0;
+        task->status = status ? (int)strtol(status, NULL, 10) : 0;
         if (host)
             snprintf(task->host, sizeof task->host, "%.*s", (int)strcspn(host, "\"\n"), host);
         task->state = task->status ? TASK_FAILED : TASK_MISSING;
