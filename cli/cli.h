@@ -5,6 +5,7 @@
 
 #include "app/session.h"
 #include "cli/options/options_batch.h"
+#include "cli/options/options_farm.h"
 #include "cli/options/options_part.h"
 #include "cli/options/words.h"
 #include "cli/options_measure.h"
@@ -88,6 +89,7 @@ struct cli_options {
     struct cli_measure measure;
     struct cli_part part;
     struct cli_batch batch;
+    struct cli_farm farm;
     enum cli_stats stats;
     bool quiet, verbose, ir, help, limit_help, version;
     bool as_file, no_cache; // of the reference
@@ -260,6 +262,7 @@ int cmd_explain(struct cli *cli);
 int cmd_devices(struct cli *cli);
 int cmd_compare(struct cli *cli);
 int cmd_merge(struct cli *cli);
+int cmd_farm(struct cli *cli);
 int cmd_tradeoff(struct cli *cli);
 int cmd_verify(struct cli *cli);
 int cmd_pick(struct cli *cli);

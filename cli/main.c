@@ -132,6 +132,22 @@ static const struct cli_command commands[] = {
      "  glint render scene.yaml --tile 2/2 -o 2.part\n"
      "  glint merge picture.png 1.part 2.part\n",
      2, -1, cmd_merge},
+    {"farm", "slurm|parallel|k8s SCENE, or status DIR",
+     "write a script that renders frames and tiles on many machines",
+     "The script starts tasks by Slurm, GNU parallel or Kubernetes, and explains itself. A task takes about "
+     "a\n"
+     "minute, by small pictures that are measured here (--chunk N says how many frames instead), and leaves "
+     "out\n"
+     "what is done. It is printed, or written into --folder DIR with the plan; 'status DIR' then says what "
+     "is\n"
+     "done, failed and missing, and which command does the rest. --format of status is text or json; its "
+     "exit\n"
+     "status is 1 until all pictures are there.\n\n"
+     "  glint farm slurm scene.yaml --frames 0..499 --tiles 4 --folder farm -o 'out.%04d.png' \\\n"
+     "      --set 'models[0].rotation.y={3.6*frame}'\n"
+     "  sh farm/job.sh\n"
+     "  glint farm status farm\n",
+     2, 2, cmd_farm},
     {"extremes", "[SCENE]", "push a scene to its extremes, and show what breaks",
      "Moves and scales the scene, moves the camera far away, changes refractive indices and specular\n"
      "exponents, adds slivers, coplanar rectangles and narrow gaps, and puts light and camera onto\n"

@@ -60,6 +60,7 @@ enum option_id {
     OPTION_POLICY = 1500,  // and enum cli_policy_option after it
     OPTION_MEASURE = 2000, // and enum cli_measure_option after it
     OPTION_PART = 2500,    // and enum cli_part_option after it
+    OPTION_FARM = 3000,    // and enum cli_farm_option after it
 };
 
 struct option_row {
@@ -75,11 +76,11 @@ static const struct option_row rows[] = {
     {OPTION_OUTPUT, "output", 'o', "FILE ...", "render",
      "write to FILE (" IMAGE_WRITTEN_ENDINGS
      "); '-' writes PNG to standard output; several are rendered once"},
-    {OPTION_DEPTH, "depth", 0, "N", "render merge",
+    {OPTION_DEPTH, "depth", 0, "N", "render merge farm",
      "bits per channel: 16 for PNG instead of 8, or for OpenEXR (half) instead of 32 (float)"},
-    {OPTION_QUALITY, "quality", 0, "N", "render merge",
+    {OPTION_QUALITY, "quality", 0, "N", "render merge farm",
      "of JPEG and WebP: from 1 to 100, instead of 90; WebP is lossless at 100"},
-    {OPTION_COMPRESSION, "compression", 0, "KIND", "render merge",
+    {OPTION_COMPRESSION, "compression", 0, "KIND", "render merge farm",
      "of OpenEXR: zip (the default), piz or none"},
     {OPTION_OUTPUT, "output", 'o', "FILE", "tradeoff",
      "write the report with its plot and pictures to FILE (.html)"},
@@ -105,10 +106,10 @@ static const struct option_row rows[] = {
      "fail if a larger share of the double precision chosen is not needed, instead of 0.05"},
     {OPTION_OUTPUT, "output", 'o', "FILE", "import",
      "write the scene to FILE (.yaml .yml .json .xml); '-' writes YAML to standard output, and no images"},
-    {OPTION_FORCE, "force", 0, NULL, "import", "overwrite files that exist"},
-    {OPTION_SIZE, "size", 0, "WxH", "render view inspect pick tradeoff extremes",
+    {OPTION_FORCE, "force", 0, NULL, "import farm", "overwrite files that exist"},
+    {OPTION_SIZE, "size", 0, "WxH", "render view inspect pick tradeoff extremes farm",
      "size of the picture in pixels, instead of the scene's"},
-    {OPTION_SAMPLES, "samples", 0, "N", "render view inspect tradeoff",
+    {OPTION_SAMPLES, "samples", 0, "N", "render view inspect tradeoff farm",
      "rays through each pixel, instead of the scene's"},
     {OPTION_MEASURE + CLI_MEASURE_NOISE, "noise", 0, "E", "render",
      "end each pixel once the standard error of its displayed colour is at most E, such as 0.01; with at "
@@ -121,9 +122,9 @@ static const struct option_row rows[] = {
     {OPTION_CAMERA, "camera", 0, "NAME", "view pick tradeoff extremes", "the camera to look through"},
     {OPTION_CAMERA, "camera", 0, "NAME", "render",
      "the camera to look through; 'all' writes OUT.NAME.png for each"},
-    {OPTION_SET, "set", 0, "PATH=VALUE ...", "render view pick check inspect deps tradeoff extremes",
+    {OPTION_SET, "set", 0, "PATH=VALUE ...", "render view pick check inspect deps tradeoff extremes farm",
      "change one value of the scene: materials.glass.refractive_index=1.6; a later one counts"},
-    {OPTION_DEVICE, "device", 0, "NAME|N", "render view verify pick tradeoff extremes",
+    {OPTION_DEVICE, "device", 0, "NAME|N", "render view verify pick tradeoff extremes farm",
      "the device to render on, see 'glint devices'; 'reference' is the tracer in double precision; also "
      "GLINT_DEVICE"},
     {OPTION_AS_FILE, "as-file", 0, NULL, "render",
@@ -133,7 +134,7 @@ static const struct option_row rows[] = {
     {OPTION_SKIP_PIXELS, "skip-pixels", 0, NULL, "check inspect",
      "read only the headers of images, which is faster; damaged pixels are not found"},
     {OPTION_ASSET_PATH, "asset-path", 0, "DIR ...",
-     "render view verify pick check inspect convert deps pack tradeoff extremes import",
+     "render view verify pick check inspect convert deps pack tradeoff extremes import farm",
      "another folder in which to look for files of the scene"},
     {OPTION_LIMIT, "limit", 0, "NAME=VALUE ...",
      "render view verify pick check inspect format diff convert deps pack compare tradeoff extremes lsp "
@@ -146,6 +147,7 @@ static const struct option_row rows[] = {
     {OPTION_REPEAT, "repeat", 0, "N", "render",
      "render N times and show the median time of a frame and its spread"},
 #include "cli/options/options_batch.def"
+#include "cli/options/options_farm.def"
 #include "cli/options/options_part.def"
     {OPTION_WATCH, "watch", 0, NULL, "render",
      "render again each time the scene, or a file that it reads, is saved; ends with Ctrl-C"},
@@ -160,12 +162,12 @@ static const struct option_row rows[] = {
      "say at most what share of the picture's pixels is off, in the file too; --stats does so as well"},
     {OPTION_MEASURE + CLI_MEASURE_MAX_OFF, "max-off", 0, "X", "render",
      "fail if more than this share of the pixels is off; the audit goes on until it is sure"},
-    {OPTION_QUIET, "quiet", 'q', NULL, "render merge view extremes check tradeoff import",
+    {OPTION_QUIET, "quiet", 'q', NULL, "render merge view extremes check tradeoff import farm",
      "show only errors and warnings: no notes, no progress"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "check", "show notes too"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "extremes",
      "list all random scenes, not only those that are not right, and --keep all"},
-    {OPTION_FORMAT, "format", 0, "KIND", "check compare verify tradeoff extremes pick diff deps",
+    {OPTION_FORMAT, "format", 0, "KIND", "check compare verify tradeoff extremes pick diff deps farm",
      "the format of the report; the text above lists the kinds"},
     {OPTION_POLICY + CLI_POLICY_SEVERITY, "severity", 0, "CODE=LEVEL ...", "check",
      "change the severity of a code: error, warning, note or off"},
@@ -183,38 +185,7 @@ static const struct option_row rows[] = {
      "report only what is not in FILE, and say which of its findings are gone"},
     {OPTION_WRITE_BASELINE, "write-baseline", 0, "FILE", "check",
      "write the errors and warnings that there are into FILE, for --baseline"},
-    {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_MAE, "max-mae", 0, "X", "compare",
-     "fail if the mean difference is larger"},
-    {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_RMSE, "max-rmse", 0, "X", "compare",
-     "fail if the root of the mean squared difference is larger"},
-    {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_RELMSE, "max-relmse", 0, "X", "compare",
-     "fail if the relative mean squared difference is larger"},
-    {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_LARGEST, "max-largest", 0, "X", "compare",
-     "fail if the largest difference is larger"},
-    {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_PSNR, "min-psnr", 0, "DB", "compare",
-     "fail if the signal to noise ratio is lower"},
-    {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_SSIM, "min-ssim", 0, "X", "compare",
-     "fail if the structural similarity is lower"},
-    {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_FLIP, "max-flip", 0, "X", "compare",
-     "fail if the mean of FLIP is larger"},
-    {OPTION_MEASURE + CLI_MEASURE_BOUND + METRIC_SHARE, "max-share", 0, "X", "compare",
-     "fail if the share of pixels over the threshold is larger"},
-    {OPTION_MEASURE + CLI_MEASURE_NOT_FINITE, "max-not-finite", 0, "N", "compare",
-     "how many pixels may be not a number when any bound is given, instead of 0"},
-    {OPTION_MEASURE + CLI_MEASURE_THRESHOLD, "threshold", 0, "X", "compare tradeoff",
-     "the threshold for the share of pixels, instead of 1/255"},
-    {OPTION_MEASURE + CLI_MEASURE_PPD, "ppd", 0, "N", "compare tradeoff",
-     "pixels per degree of the viewer's field of view, for FLIP, instead of 67"},
-    {OPTION_MEASURE + CLI_MEASURE_SPACE, "space", 0, "KIND", "compare",
-     "auto, displayed or linear: the values that are compared"},
-    {OPTION_MEASURE + CLI_MEASURE_TONE, "tone", 0, "KIND", "compare",
-     "clip or normalize: how float pictures are displayed"},
-    {OPTION_MEASURE + CLI_MEASURE_TRANSFER, "transfer", 0, "KIND", "compare",
-     "none or srgb: how float pictures are displayed"},
-    {OPTION_MEASURE + CLI_MEASURE_HEATMAP, "heatmap", 0, "FILE", "compare",
-     "write the error of each pixel as colours to FILE (.png)"},
-    {OPTION_MEASURE + CLI_MEASURE_HEATMAP_OF, "heatmap-of", 0, "KIND", "compare",
-     "difference (black to 0.001, then three decades) or flip (0 to 1)"},
+#include "cli/options/options_compare.def"
     {OPTION_MEASURE + CLI_MEASURE_MAX_ERROR, "max-error", 0, "METRIC=X", "tradeoff render",
      "choose the cheapest settings whose error is no larger, such as flip=0.02"},
     {OPTION_MEASURE + CLI_MEASURE_MAX_TIME, "max-time", 0, "MS", "tradeoff render",
@@ -451,6 +422,8 @@ static bool apply_value(struct cli *cli, int arg, int id, const char *value) {
 static bool apply(struct cli *cli, int arg, const struct option_row *row, const char *value) {
     if (row->id >= OPTION_POLICY && row->id < OPTION_MEASURE)
         return cli_policy_apply(cli, arg, (enum cli_policy_option)(row->id - OPTION_POLICY), value);
+    if (row->id >= OPTION_FARM)
+        return cli_farm_apply(cli, arg, (enum cli_farm_option)(row->id - OPTION_FARM), value);
     if (row->id >= OPTION_PART)
         return cli_part_apply(cli, arg, (enum cli_part_option)(row->id - OPTION_PART), value);
     if (row->id >= OPTION_MEASURE)

@@ -1,5 +1,5 @@
 // glint pack SCENE OUT: a scene and all its files in one folder or archive.
-#include "cli/cli.h"
+#include "cli/pack/pack_scene.h"
 
 #include "app/pack/pack.h"
 #include "cli/progress.h"
@@ -22,11 +22,10 @@ static void tell_limits(const struct pack_plan *plan, const char *out) {
     strbuf_finish(&text);
 }
 
-static int pack(struct cli *cli, struct session *session) {
+static int pack(struct cli *cli, struct session *session, const char *out, const char **packed) {
     struct inventory inventory;
     struct pack_plan plan;
     struct pack_error error = {""};
-    const char *out = cli->operands[1];
     bool listed = inventory_make(session, &inventory);
     if (!listed)
         diag_add(&session->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE, "not enough memory to pack this scene");
@@ -36,6 +35,8 @@ static int pack(struct cli *cli, struct session *session) {
     enum pack_status status = pack_write(session, &plan, out, is_stopped, &error);
     if (status == PACK_OK) {
         tell_limits(&plan, out);
+        if (packed)
+            *packed = arena_copy(&cli->arena, plan.items[0].target).ptr;
         return CLI_OK;
     }
     if (status == PACK_STOPPED)
@@ -58,9 +59,23 @@ static bool is_other_archive(struct cli *cli) {
     return false;
 }
 
-int cmd_pack(struct cli *cli) {
+int pack_scene(struct cli *cli, const char *scene, const char *out, const char **packed) {
     struct session session;
-    struct session_options options = cli_session_options(cli, cli->operands[0]);
+    struct session_options options = cli_session_options(cli, scene);
+    struct asset_store *store = asset_store_create();
+    options.set_count = 0; // a package is the scene, not a picture of it
+    options.width = options.height = options.samples = 0;
+    options.pixels = ASSETS_SKIP_PIXELS;
+    session_load(&session, &options, store);
+    int status = cli_report(cli, &session, false);
+    if (status == CLI_OK)
+        status = pack(cli, &session, out, packed);
+    session_finish(&session);
+    asset_store_destroy(store);
+    return status;
+}
+
+int cmd_pack(struct cli *cli) {
     if (strcmp(cli->operands[0], "-") == 0)
         return cli_usage(cli, cli_operand_place(cli, 0),
                          "a package has the scene's name, and standard input has none: name a file");
@@ -68,13 +83,5 @@ int cmd_pack(struct cli *cli) {
         return cli_usage(cli, cli_operand_place(cli, 1), "a package cannot be written to standard output");
     if (is_other_archive(cli))
         return CLI_USAGE;
-    struct asset_store *store = asset_store_create();
-    options.pixels = ASSETS_SKIP_PIXELS;
-    session_load(&session, &options, store);
-    int status = cli_report(cli, &session, false);
-    if (status == CLI_OK)
-        status = pack(cli, &session);
-    session_finish(&session);
-    asset_store_destroy(store);
-    return status;
+    return pack_scene(cli, cli->operands[0], cli->operands[1], NULL);
 }

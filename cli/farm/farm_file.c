@@ -1,0 +1,184 @@
+// The plan as a file of its folder: lines of a word and its value, as the head of a part has them.
+#include "app/frames/frame_name.h"
+#include "cli/farm/farm.h"
+#include "files/stream.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define PLAN_NAME "farm.plan"
+#define PLAN_HEAD "glint farm 1\n"
+
+enum {
+    PLAN_BYTES = 65536, // a plan is shorter
+};
+
+static const char *in_folder(struct cli *cli, const char *folder, const char *name) {
+    return path_join(&cli->arena, str_from(folder), str_from(name)).ptr;
+}
+
+// ---- writing
+
+static void write_plan(const struct farm_plan *plan, struct strbuf *out) {
+    strbuf_format(out, PLAN_HEAD "engine %s\n", farm_engines[plan->engine]);
+    if (plan->has_frames)
+        strbuf_format(out, "frames %d %d %d\n", (int)plan->first, (int)plan->last, (int)plan->step);
+    strbuf_format(out, "tiles %u\nchunk %u\nroot %s\nfolder %s\noutput %s\n", plan->tiles, plan->chunk,
+                  plan->root, plan->folder, plan->output);
+    if (plan->part)
+        strbuf_format(out, "part %s\n", plan->part);
+}
+
+static int make_folder(struct cli *cli, const char *path) {
+    if (mkdir(path, 0777) == 0 || errno == EEXIST)
+        return CLI_OK;
+    cli_error(cli, DIAG_OUTPUT, path, NULL, "the folder cannot be made: %s", strerror(errno));
+    return CLI_FILE;
+}
+
+int farm_begin(struct cli *cli, const struct farm_plan *plan) {
+    struct stat there;
+    if (!plan->folder)
+        return CLI_OK;
+    const char *path = in_folder(cli, plan->folder, PLAN_NAME);
+    if (!cli->options.force && stat(path, &there) == 0) {
+        const int status =
+            cli_usage(cli, cli_option_place(cli, "folder"), "'%s' holds the plan of a farm", plan->folder);
+        diag_help(&cli->sink, "choose another folder, or overwrite it with --force");
+        return status;
+    }
+    const int status = make_folder(cli, plan->folder);
+    return status == CLI_OK ? make_folder(cli, in_folder(cli, plan->folder, "log")) : status;
+}
+
+int farm_save(struct cli *cli, const struct farm_plan *plan, str script) {
+    const char *path = in_folder(cli, plan->folder, PLAN_NAME);
+    struct strbuf text;
+    int status = cli_write(cli, in_folder(cli, plan->folder, farm_script_name(plan->engine)), script);
+    strbuf_init(&text);
+    write_plan(plan, &text);
+    if (status == CLI_OK)
+        status = cli_write_made(cli, path, &text, "the plan");
+    strbuf_finish(&text);
+    return status;
+}
+
+// ---- reading
+
+// The value of the line that begins with a word; NULL: the next line is another one.
+static char *take_line(char **text, const char *word) {
+    char *line = *text, *end = strchr(line, '\n');
+    const size_t length = strlen(word);
+    if (!end || strncmp(line, word, length) != 0 || line[length] != ' ')
+        return NULL;
+    *end = '\0';
+    *text = end + 1;
+    return line + length + 1;
+}
+
+static bool take_numbers(char **text, const char *word, uint32_t *out, int count) {
+    const char *line = take_line(text, word);
+    for (int i = 0; line && i < count; i++) {
+        char *end;
+        const unsigned long value = strtoul(line, &end, 10);
+        if (end == line || value > INT32_MAX)
+            return false;
+        out[i] = (uint32_t)value;
+        line = end;
+    }
+    return line && *line == '\0';
+}
+
+static int engine_of(const char *name) {
+    for (int i = 0; name && farm_engines[i]; i++)
+        if (strcmp(farm_engines[i], name) == 0)
+            return i;
+    return -1;
+}
+
+static bool is_name(const char *pattern, const struct farm_plan *plan) {
+    struct strbuf name;
+    strbuf_init(&name);
+    const bool good = pattern && *pattern && (!plan->has_frames || frame_name(pattern, plan->first, &name));
+    strbuf_finish(&name);
+    return good;
+}
+
+static bool read_plan(char *text, struct farm_plan *plan) {
+    uint32_t frames[3] = {0, 0, 1};
+    if (strncmp(text, PLAN_HEAD, strlen(PLAN_HEAD)) != 0)
+        return false;
+    text += strlen(PLAN_HEAD);
+    const int engine = engine_of(take_line(&text, "engine"));
+    plan->has_frames = take_numbers(&text, "frames", frames, 3);
+    if (engine < 0 || !take_numbers(&text, "tiles", &plan->tiles, 1) ||
+        !take_numbers(&text, "chunk", &plan->chunk, 1) || frames[1] < frames[0] || frames[2] == 0 ||
+        plan->tiles == 0 || plan->chunk == 0)
+        return false;
+    plan->engine = (enum farm_engine)engine;
+    plan->first = (int32_t)frames[0];
+    plan->last = (int32_t)frames[1];
+    plan->step = (int32_t)frames[2];
+    plan->frames = (frames[1] - frames[0]) / frames[2] + 1;
+    plan->root = take_line(&text, "root");
+    plan->folder = plan->root ? take_line(&text, "folder") : NULL;
+    plan->output = plan->folder ? take_line(&text, "output") : NULL;
+    plan->part = plan->output ? take_line(&text, "part") : NULL;
+    return is_name(plan->output, plan) && (plan->tiles == 1) == (plan->part == NULL) &&
+           (!plan->part || is_name(plan->part, plan)) && *text == '\0';
+}
+
+int farm_load(struct cli *cli, const char *folder, struct farm_plan *plan) {
+    const char *path = in_folder(cli, folder, PLAN_NAME);
+    struct strbuf file;
+    *plan = (struct farm_plan){0};
+    strbuf_init(&file);
+    const int error = stream_read_file(path, PLAN_BYTES, &file);
+    char *text = arena_alloc(&cli->arena, file.len + 1);
+    memcpy(text, file.data ? file.data : "", file.len);
+    strbuf_finish(&file);
+    if (error) {
+        cli_error(cli, DIAG_FILE_UNREADABLE, path, "'glint farm' with --folder writes it",
+                  "cannot be read: %s", strerror(error));
+        return CLI_FILE;
+    }
+    if (!read_plan(text, plan)) {
+        cli_error(cli, DIAG_FILE_UNREADABLE, path, NULL, "this is not a plan that 'glint farm' has written");
+        return CLI_FILE;
+    }
+    const uint64_t chunks = (plan->frames + (uint64_t)plan->chunk - 1) / plan->chunk;
+    if (chunks * plan->tiles > INT32_MAX) {
+        cli_error(cli, DIAG_FILE_UNREADABLE, path, NULL, "this is not a plan that 'glint farm' has written");
+        return CLI_FILE;
+    }
+    plan->tasks = (uint32_t)chunks * plan->tiles;
+    return CLI_OK;
+}
+
+// ---- names
+
+static const char *name_of(struct cli *cli, const struct farm_plan *plan, const char *pattern, int32_t frame,
+                           const char *more) {
+    struct strbuf name;
+    strbuf_init(&name);
+    if (plan->has_frames)
+        frame_name(pattern, frame, &name);
+    else
+        strbuf_cstr(&name, pattern);
+    strbuf_cstr(&name, more);
+    const str path = path_join(&cli->arena, str_from(plan->root), strbuf_view(&name));
+    const char *copy = arena_copy(&cli->arena, path).ptr;
+    strbuf_finish(&name);
+    return copy;
+}
+
+const char *farm_picture(struct cli *cli, const struct farm_plan *plan, int32_t frame) {
+    return name_of(cli, plan, plan->output, frame, "");
+}
+
+const char *farm_part(struct cli *cli, const struct farm_plan *plan, int32_t frame, uint32_t tile) {
+    const char *ending = arena_format(&cli->arena, "%u.part", tile).ptr;
+    return name_of(cli, plan, plan->part, frame, ending);
+}

@@ -1,0 +1,56 @@
+#!/bin/sh
+# The script of glint farm under GNU parallel: tiles of frames have the bytes of whole ones; what failed is done by the
+# same command. Skipped where it is not installed: apt-get install parallel.
+# Usage: run_parallel.sh GLINT SOURCE_FOLDER WORK_FOLDER
+. "$(dirname -- "$0")/../cli/lib.sh"
+parallel --version 2>/dev/null | grep -q 'GNU parallel' || {
+    echo "skip: GNU parallel is not installed (package parallel)"
+    exit 77
+}
+export XDG_CACHE_HOME="$work/cache" PARALLEL_HOME="$work/home"
+mkdir -p "$PARALLEL_HOME"
+cat >scene.yaml <<'S'
+glint: 1
+image: {width: 40, height: 48}
+camera: {position: [0, 0, 6]}
+background: {color: [0.3, 0.5, 0.8]}
+lights: [{position: [-5, 8, 5]}]
+materials: {blue: {diffuse_color: "#1020ff"}}
+spheres: [{center: [-0.9, 0, 0], radius: 0.9, material: blue}]
+S
+turn='camera.position=[{6*sin(tau*frame/8)}, 0.5, {6*cos(tau*frame/8)}]'
+"$glint" render scene.yaml --frames 0..3 --set "$turn" -o 'w.%04d.png' -q 2>err.txt || {
+    cat err.txt
+    echo "skip: no Vulkan device"
+    exit 77
+}
+# A glint that fails in task 1, as long as there is a file.
+cat >sometimes <<S
+#!/bin/sh
+case "\$*" in *'--tile 2/3'*) [ ! -f break ] || exit 9 ;; esac
+exec "$glint" "\$@"
+S
+chmod +x sometimes
+export GLINT="$work/sometimes"
+: >break
+"$glint" farm parallel scene.yaml --frames 0..3 --tiles 3 --chunk 2 --set "$turn" --folder "f 'x" -o "f 'x/o \$(y).%04d.png" -q || fail 'the script'
+expect 'a task that fails' 2 '' 'cannot be read' sh "f 'x/job.sh"
+[ "$(grep -c '"status": 9' "f 'x/log/1.jsonl")" = 3 ] && pass 'it is tried three times' || fail "tries: $(cat "f 'x/log/1.jsonl")"
+[ "$(grep -c . "f 'x/log/0.jsonl")" = 1 ] && pass 'the others once' || fail 'the others once'
+expect 'status' 1 '4 of 6 tasks done, 2 failed' - "$glint" farm status "f 'x"
+rm break
+expect 'the same command' 0 '' '' sh "f 'x/job.sh"
+[ "$(cat "f 'x"/log/*.jsonl | grep -c '"status": 0')" = 6 ] && pass 'each task once more at most' || fail 'each task once more at most'
+expect 'all' 0 '6 of 6 tasks done' - "$glint" farm status "f 'x"
+for frame in 0000 0001 0002 0003; do
+    cmp -s w.$frame.png "f 'x/o \$(y).$frame.png" && pass "frame $frame" || fail "frame $frame"
+done
+rm "f 'x/o \$(y).0001.png" "f 'x/o \$(y).0001.2.part"
+"$glint" farm status "f 'x" | tail -1 >rest.sh
+grep -q 'submit 1$' rest.sh && pass 'the rest is named' || fail "the rest: $(cat rest.sh)"
+expect 'the rest' 0 '' '' sh rest.sh
+cmp -s w.0001.png "f 'x/o \$(y).0001.png" && pass 'the frame that was removed' || fail 'the frame that was removed'
+# Over ssh, as to another host: parallel's own program in the place of ssh.
+"$glint" farm parallel scene.yaml --frames 0..3 --set "$turn" --chunk 1 --gpus=2 --sshlogin 'one,two' --folder g -q
+grep -q -e "--jobs 2 --sshlogin 'one,two'" g/job.sh && pass 'hosts' || fail 'hosts'
+exit $failed
