@@ -2,118 +2,17 @@
 
 #include "core/strbuf.h"
 #include "files/files.h"
+#include "files/git_run.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <poll.h>
-#include <signal.h>
-#include <spawn.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-extern char **environ;
 
 enum {
     WORDS_MAX = 16,
-    OUT = 0,
-    ERR = 1,
 };
 
-struct answer {
-    struct strbuf text[2]; // standard output and error
-    int error;             // errno of what kept git from running; 0: it ran
-    int status;            // its own
-};
-
-// Signals that this program ignores are not ignored by git.
-static int start(pid_t *child, const char *const *words, int out, int err) {
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    sigset_t defaults;
-    int error = posix_spawn_file_actions_init(&actions);
-    if (error)
-        return error;
-    error = posix_spawnattr_init(&attributes);
-    if (error) {
-        posix_spawn_file_actions_destroy(&actions);
-        return error;
-    }
-    sigemptyset(&defaults);
-    sigaddset(&defaults, SIGPIPE);
-    sigaddset(&defaults, SIGXFSZ);
-    posix_spawnattr_setsigdefault(&attributes, &defaults);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-    error = posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
-    error = error ? error : posix_spawn_file_actions_adddup2(&actions, err, STDERR_FILENO);
-    error =
-        error ? error : posix_spawnp(child, words[0], &actions, &attributes, (char *const *)words, environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    return error;
-}
-
-// Both streams are read as they come: git must not wait for one while the other is full.
-static void read_both(struct answer *answer, const int *ends) {
-    struct pollfd waits[2] = {{.fd = ends[OUT], .events = POLLIN}, {.fd = ends[ERR], .events = POLLIN}};
-    char buffer[4096];
-    while (waits[OUT].fd >= 0 || waits[ERR].fd >= 0) {
-        if (poll(waits, 2, -1) < 0 && errno != EINTR)
-            break;
-        for (int i = 0; i < 2; i++) {
-            if (waits[i].fd < 0 || !waits[i].revents)
-                continue;
-            ssize_t count = read(waits[i].fd, buffer, sizeof buffer);
-            if (count > 0)
-                strbuf_add(&answer->text[i], buffer, (size_t)count);
-            else if (count == 0 || errno != EINTR)
-                waits[i].fd = -1;
-        }
-    }
-}
-
-static void run_between(struct answer *answer, const char *const *words, const int *out, const int *err) {
-    pid_t child = 0;
-    answer->error = start(&child, words, out[1], err[1]);
-    close(out[1]);
-    close(err[1]);
-    if (answer->error)
-        return;
-    const int ends[] = {out[0], err[0]};
-    read_both(answer, ends);
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0)
-        if (errno != EINTR) {
-            answer->error = errno;
-            return;
-        }
-    answer->status = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-}
-
-static void run_git(struct answer *answer, const char *const *words) {
-    int out[2], err[2];
-    if (pipe(out) != 0) {
-        answer->error = errno;
-        return;
-    }
-    if (pipe(err) != 0) {
-        answer->error = errno;
-        close(out[0]);
-        close(out[1]);
-        return;
-    }
-    for (int i = 0; i < 2; i++) {
-        // What git's own children inherit must not keep the ends open that are read here.
-        fcntl(out[i], F_SETFD, FD_CLOEXEC);
-        fcntl(err[i], F_SETFD, FD_CLOEXEC);
-    }
-    run_between(answer, words, out, err);
-    close(out[0]);
-    close(err[0]);
-}
-
-static bool explain(struct git_changes *changes, struct arena *arena, const struct answer *answer) {
-    str said = str_trim(strbuf_view(&answer->text[ERR]));
+static bool explain(struct git_changes *changes, struct arena *arena, const struct git_answer *answer) {
+    str said = str_trim(strbuf_view(&answer->text[GIT_ERR]));
     size_t end = 0;
     while (end < said.len && said.ptr[end] != '\n')
         end++;
@@ -135,17 +34,17 @@ static bool ask(struct git_changes *changes, struct arena *arena, str folder, co
     const char *words[WORDS_MAX] = {"git", "-C", arena_copy(arena, folder).ptr};
     for (int i = 0; question[i]; i++)
         words[3 + i] = question[i];
-    struct answer answer = {.error = 0};
-    strbuf_init(&answer.text[OUT]);
-    strbuf_init(&answer.text[ERR]);
-    run_git(&answer, words);
-    bool failed = answer.text[OUT].failed || answer.text[ERR].failed;
+    struct git_answer answer = {.error = 0};
+    strbuf_init(&answer.text[GIT_OUT]);
+    strbuf_init(&answer.text[GIT_ERR]);
+    git_run(&answer, words);
+    bool failed = answer.text[GIT_OUT].failed || answer.text[GIT_ERR].failed;
     answer.error = failed ? ENOMEM : answer.error;
     bool good = answer.error == 0 && answer.status == 0;
     good = good || explain(changes, arena, &answer);
-    str copy = arena_copy(arena, strbuf_view(&answer.text[OUT]));
-    strbuf_finish(&answer.text[OUT]);
-    strbuf_finish(&answer.text[ERR]);
+    str copy = arena_copy(arena, strbuf_view(&answer.text[GIT_OUT]));
+    strbuf_finish(&answer.text[GIT_OUT]);
+    strbuf_finish(&answer.text[GIT_ERR]);
     *out = copy;
     return good;
 }

@@ -32,6 +32,7 @@ bump() {
         next=$(cat VERSION)
     fi
     printf '%s\n' "$next" >VERSION.tmp && mv VERSION.tmp VERSION
+    sed -i "s/glint-lint@[0-9.]*/glint-lint@$next/" .pre-commit-hooks.yaml
     awk -v next_version="$next" -v today="$today" '/^## / && !done { print "## " next_version " (" today ")"; done = 1; next } 1' \
         CHANGELOG.md >CHANGELOG.md.tmp && mv CHANGELOG.md.tmp CHANGELOG.md
     echo "$next"

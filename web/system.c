@@ -1,10 +1,55 @@
 // What a module of WebAssembly has no system for: other programs and more than one processor. Who calls these
 // is told so, as anywhere else where they fail.
 #define _GNU_SOURCE
+#include "files/git_run.h"
 
+#include "core/heap.h"
+
+#include <emscripten.h>
 #include <errno.h>
 #include <sched.h>
 #include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Module.runProgram(words), where there is one (node has, a page has not), gives {status, out, err}, the last
+// two bytes, or NULL if there is no such program. Returns 0, or which of these it was: 1 no way to run any, 2
+// not this one.
+EM_JS(int, run_program, (const char *words, int count), {
+    if (!Module["runProgram"])
+        return 1;
+    var list = [];
+    for (var i = 0; i < count; i++, words += lengthBytesUTF8(list[i - 1]) + 1)
+        list.push(UTF8ToString(words));
+    Module["ran"] = Module["runProgram"](list);
+    return Module["ran"] ? 0 : 2;
+})
+EM_JS(int, ran_bytes, (int which),
+      { return which < 0 ? Module["ran"].status : Module["ran"][which ? "err" : "out"].length; })
+EM_JS(void, ran_take, (int which, char *to), { HEAPU8.set(Module["ran"][which ? "err" : "out"], to); })
+
+void git_run(struct git_answer *answer, const char *const *words) {
+    struct strbuf list;
+    int count = 0;
+    strbuf_init(&list);
+    for (; words[count]; count++)
+        strbuf_add(&list, words[count], strlen(words[count]) + 1);
+    const int fault = list.failed ? 1 : run_program(list.data, count);
+    answer->error = fault == 0 ? 0 : fault == 1 ? ENOSYS : ENOENT;
+    for (int which = GIT_OUT; !answer->error && which <= GIT_ERR; which++) {
+        const size_t length = (size_t)ran_bytes(which);
+        char *bytes = heap_alloc(length + 1);
+        if (!bytes) {
+            answer->error = ENOMEM;
+            break;
+        }
+        ran_take(which, bytes);
+        strbuf_add(&answer->text[which], bytes, length);
+        free(bytes);
+    }
+    answer->status = answer->error ? 0 : ran_bytes(-1);
+    strbuf_finish(&list);
+}
 
 int posix_spawnp(pid_t *restrict child, const char *restrict file, const posix_spawn_file_actions_t *actions,
                  const posix_spawnattr_t *restrict attributes, char *const argv[restrict],

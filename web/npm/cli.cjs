@@ -1,6 +1,7 @@
 #!/usr/bin/env node
 // glint as WebAssembly over the files of this machine: the same commands, options, reports and exit statuses.
 'use strict';
+const { spawnSync } = require('child_process');
 const fs = require('fs');
 const { load } = require('./load.cjs');
 
@@ -29,9 +30,16 @@ function input() {
   return at < text.length ? text[at++] : null;
 }
 
+// What git says of a change; null where there is no git.
+function runProgram(words) {
+  const { error, status, stdout, stderr } = spawnSync(words[0], words.slice(1), { stdio: ['ignore', 'pipe', 'pipe'], maxBuffer: 1 << 30 });
+  return error ? null : { status: status ?? 128, out: stdout, err: stderr };
+}
+
 // The machine's folders at their own paths. Where a folder cannot be entered, nothing below it can be read either.
 function mount(m) {
   Object.assign(m.ENV, process.env);
+  m.runProgram = runProgram;
   for (const entry of fs.readdirSync('/', { withFileTypes: true })) {
     const folder = '/' + entry.name;
     if (['/dev', '/proc', '/sys'].includes(folder)) continue;

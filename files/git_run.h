@@ -1,0 +1,22 @@
+// Runs git and takes what it says. Private to files; a module of WebAssembly, which cannot start a program,
+// has JavaScript do so (web/system.c).
+#ifndef GLINT_FILES_GIT_RUN_H
+#define GLINT_FILES_GIT_RUN_H
+
+#include "core/strbuf.h"
+
+enum {
+    GIT_OUT = 0,
+    GIT_ERR = 1,
+};
+
+struct git_answer {
+    struct strbuf text[2]; // standard output and error, of the caller, who frees them
+    int error;             // errno of what kept git from running; 0: it ran
+    int status;            // its own
+};
+
+// `words`, the first of which is "git", end with NULL.
+void git_run(struct git_answer *answer, const char *const *words);
+
+#endif
