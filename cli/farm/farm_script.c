@@ -3,8 +3,9 @@
 
 #include "core/number.h"
 
-// What makes a task go on where one before it ended: the place for more than leaving out what is done.
-#define GO_ON " --skip-done"
+// What makes a task go on where one before it ended: what is written is left out, and a signal ends the
+// render with status 75 and a checkpoint.
+#define GO_ON " --skip-done --resume"
 
 void farm_quote(struct strbuf *out, const char *word) {
     strbuf_char(out, '\'');

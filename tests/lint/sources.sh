@@ -14,7 +14,7 @@
         stem=${base%.c}
         found=no
         # A room's library takes every C file of its folder.
-        case $path in *.c) grep -qsE '^glint_room\(|GLOB .*\*\.c' "$(dirname "$path")/CMakeLists.txt" && found=yes ;; esac
+        case $path in *.c) grep -qsE '^ *glint_room\(|GLOB .*\*\.c' "$(dirname "$path")/CMakeLists.txt" && found=yes ;; esac
         folder=./$path
         while [ "$folder" != . ]; do
             folder=${folder%/*}

@@ -117,7 +117,8 @@ materials:
 spheres: [{center: [0, 0, 0], radius: 1, material: glass}, {center: [0.5, 0, 0], radius: 1, material: water}]
 S
 json pick_media 0 "$glint" pick media.yaml 12,8 --format json
-by_schema pick pick.json pick_mesh.json pick_bytes.json pick_off.json pick_reference.json pick_media.json pick_image.json
+json pick_light 0 "$glint" pick "$source/scenes/elements/seen_lights.glint.yaml" 145,70 --device reference --format json
+by_schema pick pick.json pick_mesh.json pick_bytes.json pick_off.json pick_reference.json pick_media.json pick_image.json pick_light.json
 
 json tradeoff 0 "$glint" tradeoff scene.yaml --format json --budget 5 -q --max-error mae=0.5 --max-time 10000
 json tradeoff_none 1 "$glint" tradeoff scene.yaml --format json --budget 1 -q --max-time 0.000001
