@@ -50,11 +50,13 @@ assert all(r["relatedSpdxElement"] in ids for r in d["relationships"]) and len(i
     fi
 
     # ---- versions
-    mkdir -p repository/tools && cp "$source/tools/release.sh" repository/tools && cd repository || exit 2
+    mkdir -p repository/tools && cp "$source/tools/release.sh" repository/tools &&
+        cp "$source/.pre-commit-hooks.yaml" repository && cd repository || exit 2
     git init -q . && echo 1.2.3 >VERSION
     printf '# Changelog\n\n## next (unreleased)\n\n- new\n\n## 1.2.3 (2001-01-01)\n\n- old\n' >CHANGELOG.md
     expect "a new part" 0 '^1.3.0$' - tools/release.sh bump minor
     [ "$(cat VERSION)" = 1.3.0 ] && grep -q '^## 1.3.0 (2023-11-14)$' CHANGELOG.md && pass "version and section" || fail "bump"
+    grep -q 'glint-lint@1\.3\.0\]' .pre-commit-hooks.yaml && pass "the version of its hooks" || fail "hooks"
     expect "its notes" 0 '^- new$' - tools/release.sh notes
     grep -q old out.txt && fail "notes of another version"
     expect "nothing is unreleased" 1 - "does not begin with what is unreleased" tools/release.sh bump patch
