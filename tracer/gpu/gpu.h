@@ -113,7 +113,8 @@ typedef void gpu_put(void *context, uint64_t offset, void *to, uint64_t bytes);
 bool gpu_fill(struct gpu *gpu, struct gpu_buffer *buffer, uint64_t offset, uint64_t bytes, gpu_put *put,
               void *context);
 bool gpu_read(struct gpu *gpu, struct gpu_buffer *buffer, uint64_t offset, void *data, uint64_t bytes);
-// What a GPU_HOST buffer holds: defined after a gpu_wait that followed the copies to it.
+// What a buffer holds that is in this process' memory: GPU_HOST, and what a processor's kernels read or
+// write, else NULL. Defined after a gpu_wait that followed the copies or dispatches that write it.
 const void *gpu_contents(const struct gpu_buffer *buffer);
 // True where GPU_WORDS are texels: which variant of a kernel fits.
 bool gpu_fetches_texels(const struct gpu *gpu);

@@ -14,7 +14,8 @@ enum {
     SHORT_PATH_RAYS = 4,    // paths of at most these are never saved
     MANY_LIGHTS = 64,       // more are added with what rounding drops
     BAND_TILES_MAX = 16384, // a megapixel: progress is reported, and Ctrl-C seen, between bands
-    RUN_TILES = 32,         // 65536 runs at most in 64 megapixels: their products fit 32 bits
+    RUN_TILES = 8,          // few, so that threads with as many runs each have as much work
+    RUNS_MOST = 65536,      // whose products fit 32 bits
     PATH_OUTPUT_BYTES = 16,
     PRIVATE_BRANCHES = 64,   // refracted rays that wait in a GPU's private memory, at most
     PATHS_AT_ONCE = 8 << 20, // enough that the last ones of a frame do not leave a GPU idle for long
@@ -122,7 +123,6 @@ static void plan_at_once(struct renderer *renderer) {
 
 static void plan(struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
-    const uint64_t bounces = FEATURE_REFLECTION | FEATURE_REFRACTION;
     renderer->features = settings->features;
     if (is_long_path(renderer))
         renderer->features |= FEATURE_SLICES;
@@ -135,13 +135,17 @@ static void plan(struct renderer *renderer) {
         renderer->features |= FEATURE_LONG_RAYS;
     if (renderer->features & FEATURE_LONG_RAYS)
         renderer->features |= FEATURE_SLICES;
-    // A surface at the last level leaves its refracted ray, which sees the background, on the stack too.
-    renderer->path_stack = (renderer->features & bounces) == bounces ? settings->max_depth + 1 : 0;
+    renderer->path_stack = renderer_most_waiting(renderer, false);
     renderer->tiles_x = (settings->width + TILE_SIDE - 1) / TILE_SIDE;
     const uint32_t tiles_y = (settings->height + TILE_SIDE - 1) / TILE_SIDE;
     renderer->run_tiles = RUN_TILES;
+    while (renderer->tiles_x * tiles_y > renderer->run_tiles * RUNS_MOST)
+        renderer->run_tiles *= 2;
     renderer->runs = (renderer->tiles_x * tiles_y + renderer->run_tiles - 1) / renderer->run_tiles;
     const bool at_once = goes_at_once(renderer);
+    // Private memory of kernels has one size, whatever weights become.
+    if (!at_once)
+        renderer->path_stack = renderer_most_waiting(renderer, true);
     renderer->run_step = gpu_fetches_texels(renderer->gpu) ? run_step_of(renderer->runs) : 1;
     renderer->tiles = renderer->runs * renderer->run_tiles;
     uint64_t slot_bytes = at_once ? 0 : slot_state_bytes(renderer);
@@ -310,7 +314,8 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
         old.features == now->features && old.alternative == now->alternative &&
         old.workgroup == now->workgroup && old.band_tiles == now->band_tiles &&
         (old.error > 0) == (now->error > 0) && renderer_is_part(&old) == renderer_is_part(now) &&
-        (old.samples == now->samples || renderer->samples_at_once == 0))
+        (old.samples == now->samples || renderer->samples_at_once == 0) &&
+        (renderer->samples_at_once || renderer_most_waiting(renderer, true) <= renderer->path_stack))
         return renderer_first_program(renderer, now->counts) != NULL;
     drop_frame(renderer);
     return make_frame(renderer);

@@ -169,11 +169,11 @@ static enum render_result draw_band(struct renderer_frame *run, uint32_t tile_be
     }
     if (!rgb)
         return RENDER_DONE;
-    if (!gpu_read(renderer->gpu, renderer->buffers[BINDING_OUTPUT], 0, renderer->band,
-                  (uint64_t)tile_count * TILE_PIXELS * sizeof(struct gpu_word)))
+    const uint32_t *sums = renderer_sums(renderer, tile_count);
+    if (!sums)
         return RENDER_FAILED;
-    renderer_unpack(renderer, tile_begin, tile_count, renderer->band, renderer->settings.samples, rgb);
-    renderer_note_faults(renderer, tile_begin, tile_count, renderer->band, run->statistics);
+    if (renderer_unpack(renderer, tile_begin, tile_count, sums, renderer->settings.samples, rgb))
+        renderer_note_faults(renderer, tile_begin, tile_count, sums, run->statistics);
     return RENDER_DONE;
 }
 

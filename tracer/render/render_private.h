@@ -215,8 +215,11 @@ bool renderer_sort_tiles(struct renderer *renderer, const struct view_camera *ca
 // Their buffers, where there are any, and the kernel that resolves them. false: see gpu_error.
 bool renderer_make_at_once(struct renderer *renderer);
 void renderer_drop_at_once(struct renderer *renderer);
-// From a band's sums, as the kernel leaves them, to their pixels of the picture.
-void renderer_unpack(const struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
+// A band's sums, as the kernel leaves them, when it has ended: 4 words a slot, valid until the next dispatch.
+// Where this process can read them in place they are not copied. NULL: see gpu_error.
+const uint32_t *renderer_sums(const struct renderer *renderer, uint32_t tile_count);
+// From there to their pixels of the picture. Returns whether some have faults.
+bool renderer_unpack(const struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
                      const uint32_t *sums, uint32_t samples, float *rgb);
 // Adds the faults of a band's sums to the statistics.
 void renderer_note_faults(const struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
@@ -229,6 +232,9 @@ bool renderer_begin_frame(struct renderer_frame *run, const struct view_camera *
 // Adds to the statistics, which the caller has cleared. `rgb` NULL: no picture.
 enum render_result renderer_draw_frame(struct renderer_frame *run, const struct view_camera *camera,
                                        float *rgb);
+// Refracted rays that wait in a path at the same time, at most; `by_weight`: with the weights of the scene's
+// materials and the least weight of the settings, else whatever they are (render_waiting.c).
+uint32_t renderer_most_waiting(const struct renderer *renderer, bool by_weight);
 // Entries of the deeper tree's stack.
 uint32_t renderer_stack_levels(const struct renderer *renderer);
 // From now on with kernels that can save a ray in the middle of a tree. false: see gpu_error.

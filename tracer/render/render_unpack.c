@@ -3,7 +3,9 @@
 
 #include "core/parallel.h"
 
+#include <assert.h>
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
 enum {
@@ -40,12 +42,14 @@ struct unpacking {
     uint32_t tile_begin, samples;
     const uint32_t *sums;
     float *rgb;
+    atomic_bool has_faults;
 };
 
 static void unpack_tiles(void *context, size_t begin, size_t end) {
-    const struct unpacking *u = context;
+    struct unpacking *u = context;
     const struct render_settings *settings = &u->renderer->settings;
     const float samples = (float)u->samples;
+    uint32_t faults = 0; // any
     for (size_t slot = begin * TILE_PIXELS; slot < end * TILE_PIXELS; slot++) {
         uint32_t x, y;
         if (!renderer_traced_pixel(u->renderer, u->tile_begin, (uint32_t)slot, &x, &y))
@@ -53,16 +57,30 @@ static void unpack_tiles(void *context, size_t begin, size_t end) {
         float sum[3];
         memcpy(sum, u->sums + 4 * slot, sizeof sum);
         float *out = u->rgb + ((size_t)y * settings->width + x) * 3;
-        const bool sound = u->sums[4 * slot + 3] >> FAULT_KIND_SHIFT != FAULT_NOT_FINITE;
+        const uint32_t fault = u->sums[4 * slot + 3] >> FAULT_KIND_SHIFT;
         for (int i = 0; i < 3; i++)
-            out[i] = sound ? sum[i] / samples : NAN;
+            out[i] = fault != FAULT_NOT_FINITE ? sum[i] / samples : NAN;
+        faults |= fault;
     }
+    static_assert(FAULT_NONE == 0, "bits of faults are gathered");
+    if (faults)
+        u->has_faults = true;
 }
 
-void renderer_unpack(const struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
+const uint32_t *renderer_sums(const struct renderer *renderer, uint32_t tile_count) {
+    struct gpu_buffer *output = renderer->buffers[BINDING_OUTPUT];
+    const bool is_cpu = gpu_info(renderer->gpu)->kind == GPU_CPU;
+    if (is_cpu && gpu_contents(output))
+        return gpu_wait(renderer->gpu, NULL) ? gpu_contents(output) : NULL;
+    const uint64_t bytes = (uint64_t)tile_count * TILE_PIXELS * sizeof(struct gpu_word);
+    return gpu_read(renderer->gpu, output, 0, renderer->band, bytes) ? renderer->band : NULL;
+}
+
+bool renderer_unpack(const struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
                      const uint32_t *sums, uint32_t samples, float *rgb) {
-    struct unpacking unpacking = {renderer, tile_begin, samples, sums, rgb};
+    struct unpacking unpacking = {renderer, tile_begin, samples, sums, rgb, false};
     parallel_for(tile_count, TILES_A_PIECE, unpack_tiles, &unpacking);
+    return unpacking.has_faults;
 }
 
 void renderer_number(const struct renderer *renderer, uint32_t number, uint32_t *body, uint32_t *triangle) {

@@ -74,8 +74,8 @@ enum render_result renderer_draw_until(struct renderer_frame *run, const struct 
         run->statistics->samples = run->samples_done;
         run->statistics->all_samples =
             (uint64_t)renderer->settings.width * renderer->settings.height * run->samples_done;
-        renderer_unpack(renderer, 0, renderer->tiles, sums.whole, run->samples_done, rgb);
-        renderer_note_faults(renderer, 0, renderer->tiles, sums.whole, run->statistics);
+        if (renderer_unpack(renderer, 0, renderer->tiles, sums.whole, run->samples_done, rgb))
+            renderer_note_faults(renderer, 0, renderer->tiles, sums.whole, run->statistics);
     }
     free(sums.whole);
     free(sums.next);
