@@ -47,9 +47,14 @@ static const struct cli_command commands[] = {
      "  glint check scenes --format sarif -o glint.sarif --fail-on warning\n"
      "  glint check --changed origin/main\n",
      0, -1, cmd_check},
-    {"inspect", "SCENE", "show what a scene contains and requires",
-     "Counts, bounds, the features that the scene switches on and where, and the sizes of the buffers.\n"
-     "With --ir, prints the scene as glint understood it: the same text for two files that mean the same.\n",
+    {"inspect", "SCENE|PICTURE", "show what a scene requires, or how a picture was made",
+     "Of a scene: counts, bounds, the features that it switches on and where, and the sizes of the buffers.\n"
+     "With --ir, prints the scene as glint understood it: the same text for two files that mean the same.\n\n"
+     "Of a picture that glint rendered: its scene's hash, glint's version, the device, settings, the "
+     "command\n"
+     "that makes it again, and its accuracy (docs/provenance.md). --format is text or json.\n\n"
+     "  glint inspect scenes/showcase.glint.yaml\n"
+     "  glint inspect picture.png\n",
      1, 1, cmd_inspect},
     {"convert", "IN OUT", "convert between the YAML and the XML spelling",
      "The extensions of IN and OUT (.yaml .yml .json, .xml) determine the spellings; with OUT '-' the\nother "

@@ -167,7 +167,7 @@ static const struct option_row rows[] = {
     {OPTION_VERBOSE, "verbose", 'v', NULL, "check", "show notes too"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "extremes",
      "list all random scenes, not only those that are not right, and --keep all"},
-    {OPTION_FORMAT, "format", 0, "KIND", "check compare verify tradeoff extremes pick diff deps farm",
+    {OPTION_FORMAT, "format", 0, "KIND", "check inspect compare verify tradeoff extremes pick diff deps farm",
      "the format of the report; the text above lists the kinds"},
     {OPTION_POLICY + CLI_POLICY_SEVERITY, "severity", 0, "CODE=LEVEL ...", "check",
      "change the severity of a code: error, warning, note or off"},

@@ -92,4 +92,33 @@ expect "and taken" 0 'verified' - "$glint" verify piped.png scene.yaml
 expect "JSON" 0 '"verified": true' - "$glint" verify a.png --format json
 "$glint" render scene.yaml -q -o a.pfm
 expect "a PFM has no place" 1 - 'does not say how it was made' "$glint" verify a.pfm
+
+# glint inspect of a picture: what its record says, without the scene.
+for kind in $formats; do
+    expect "inspect a $kind" 0 'scene hash  [0-9a-f]{32}$' - "$glint" inspect a.$kind
+    also "its kind and size" '^kind +[A-Z]+, 12 x 8 pixels$' -
+    also "its command" '^command +glint render scene.yaml --size 12x8 --samples 2 --device reference' -
+    also "and nothing of a missing record" '^device +reference$' -
+    grep -q '^record' out.txt && fail "a record is not missing in a $kind"
+done
+expect "as JSON" 0 '"settings": "12 x 8 pixels, 2 samples' - "$glint" inspect --format json a.png
+expect "one without a record" 0 '^record +none: the picture does not say' - "$glint" inspect "$source/tests/golden/minimal.png"
+expect "as JSON" 0 '"recorded": false' - "$glint" inspect --format json "$source/tests/golden/minimal.png"
+also "without a command" '"command": null' -
+expect "a PFM" 0 'the format has no place for it' - "$glint" inspect a.pfm
+"$glint" render scene.yaml -q -o a.webp 2>/dev/null &&
+    expect "a WebP" 0 'the format has no place for it' - "$glint" inspect a.webp
+sed 's/^# Command: glint render/# Command: glint remove/' a.hdr >changed.hdr
+expect "a command that is not glint's" 0 'record +not understood' - "$glint" inspect changed.hdr
+printf '# Device: \033[31mred\n' >>head.txt
+sed '2r head.txt' a.hdr >colored.hdr
+expect "bytes for a terminal are not passed on" 0 'device +.\[31mred' - "$glint" inspect colored.hdr
+grep -q "$(printf '\033')" out.txt && fail "an escape sequence was passed on"
+expect "a picture that is not there" 3 - 'does not exist' "$glint" inspect none.png
+head -c 40 a.png >broken.png
+expect "a broken one" 1 - 'broken.png:1:1: error' "$glint" inspect broken.png
+cp scene.yaml scene.png
+expect "a scene that is named as a picture" 1 - 'is not a' "$glint" inspect scene.png
+expect "an option of scenes" 2 - "'--ir' would have no effect" "$glint" inspect a.png --ir
+expect "and one of pictures" 2 - "'--format' would have no effect" "$glint" inspect scene.yaml --format json
 exit $failed

@@ -60,6 +60,9 @@ json verify 0 "$glint" verify made.hdr --format json
 json verify_changed 1 "$glint" verify made.hdr other.yaml --format json
 json verify_device 0 "$glint" verify moved.hdr --device reference --format json
 by_schema verify verify.json verify_changed.json verify_device.json
+json inspect 0 "$glint" inspect made.hdr --format json
+json inspect_none 0 "$glint" inspect exact.pfm --format json
+by_schema inspect inspect.json inspect_none.json
 
 json pick_reference 0 "$glint" pick scene.yaml 8,8 --format json --device reference
 json render_reference 0 "$glint" render scene.yaml --set image.error=0.05 --set image.samples=64 --samples 1 -o exact.png --device reference --stats=json -q

@@ -1,7 +1,7 @@
 // glint inspect SCENE [--ir]: counts, bounds, features with their reasons, buffers; or the canonical dump.
 #include "app/precision.h"
 #include "app/where.h"
-#include "cli/cli.h"
+#include "cli/inspect/inspect.h"
 #include "grammar/schema.h"
 
 #include "core/number.h"
@@ -194,6 +194,10 @@ static bool describe(struct session *session, struct strbuf *out) {
 }
 
 int cmd_inspect(struct cli *cli) {
+    if (inspect_is_picture(cli->operands[0]))
+        return inspect_picture(cli);
+    if (cli_has_no_effect(cli, "format", "only what a picture says is printed as JSON"))
+        return CLI_USAGE;
     struct session session;
     struct strbuf text;
     struct asset_store *store = asset_store_create();
