@@ -169,7 +169,7 @@ static void write_kernel(void *context, const uint64_t key[2], const void *bytes
         folder_store_seal(context, name, &seal, &part, 1);
 }
 
-static struct gpu_options device_options(struct cli *cli) {
+struct gpu_options cli_device_options(struct cli *cli) {
     struct folder_store *store = ARENA_NEW(&cli->arena, struct folder_store);
     char *path = folder_store_path("kernels");
     if (path)
@@ -187,20 +187,20 @@ static struct gpu_options device_options(struct cli *cli) {
 
 int cli_open_device(struct cli *cli, struct gpu **gpu) {
     char error[GPU_ERROR_BYTES] = "";
-    const struct gpu_options options = device_options(cli);
+    const struct gpu_options options = cli_device_options(cli);
     return report_opening(cli, gpu_create(&options, gpu, error), error);
 }
 
 int cli_open_named(struct cli *cli, const char *name, struct gpu **gpu) {
     char error[GPU_ERROR_BYTES] = "";
-    struct gpu_options options = device_options(cli);
+    struct gpu_options options = cli_device_options(cli);
     options.device = name;
     return report_opening(cli, gpu_create(&options, gpu, error), error);
 }
 
 int cli_open_screen_device(struct cli *cli, const char *const *extensions, uint32_t count, struct gpu **gpu) {
     char error[GPU_ERROR_BYTES] = "";
-    struct gpu_options options = device_options(cli);
+    struct gpu_options options = cli_device_options(cli);
     options.screen_extensions = extensions;
     options.screen_extension_count = count;
     return report_opening(cli, gpu_create(&options, gpu, error), error);
@@ -228,7 +228,7 @@ struct cli_opening *cli_begin_opening(struct cli *cli, struct timeline *timeline
     struct cli_opening *opening = heap_zeroed(1, sizeof *opening);
     if (!opening)
         return NULL;
-    opening->options = device_options(cli);
+    opening->options = cli_device_options(cli);
     opening->timeline = timeline;
     parallel_start(&opening->task, open_beside, opening);
     return opening;

@@ -13,6 +13,8 @@ struct timeline;
 const char *cli_device_wanted(const struct cli *cli);
 // Whether that is the reference.
 bool cli_device_is_reference(const struct cli *cli);
+// For gpu_create, where nothing is printed if it fails. What they name lives as long as `cli`.
+struct gpu_options cli_device_options(struct cli *cli);
 // CLI_OK, or CLI_DEVICE with an error printed. *gpu is the caller's to destroy.
 int cli_open_device(struct cli *cli, struct gpu **gpu);
 // The same for a device by its number or name, whatever --device says.

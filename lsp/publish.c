@@ -216,3 +216,11 @@ void server_publish(struct server *server) {
     json_decref(server->published);
     server->published = all;
 }
+
+void server_refresh(struct server *server, enum scenes_effort effort) {
+    bool changed = scenes_refresh(&server->scenes, effort);
+    server->was_saved = false;
+    server_forget(server);
+    if (changed)
+        server_publish(server);
+}

@@ -14,12 +14,12 @@ enum {
 #define BODY_MOST ((size_t)1 << 30)
 
 void rpc_init(struct rpc *rpc, int in, int out) {
-    *rpc = (struct rpc){.in = in, .out = out};
+    *rpc = (struct rpc){.in = in, .out = out, .woken = -1};
     strbuf_init(&rpc->received);
 }
 
 void rpc_init_sender(struct rpc *rpc, rpc_sender *sender, void *context) {
-    *rpc = (struct rpc){.in = -1, .out = -1, .sender = sender, .context = context};
+    *rpc = (struct rpc){.in = -1, .out = -1, .woken = -1, .sender = sender, .context = context};
     strbuf_init(&rpc->received);
 }
 
@@ -121,9 +121,12 @@ enum rpc_state rpc_read(struct rpc *rpc, json_t **message) {
     }
 }
 
-bool rpc_pending(const struct rpc *rpc, int wait_ms) {
-    struct pollfd in = {.fd = rpc->in, .events = POLLIN};
-    return unread(rpc).len > 0 || (poll(&in, 1, wait_ms) > 0 && in.revents != 0);
+enum rpc_pending rpc_wait(const struct rpc *rpc, int wait_ms) {
+    struct pollfd fds[2] = {{.fd = rpc->in, .events = POLLIN}, {.fd = rpc->woken, .events = POLLIN}};
+    if (unread(rpc).len > 0)
+        return RPC_BYTES;
+    const int count = poll(fds, 2, wait_ms);
+    return count <= 0 ? RPC_NOTHING : fds[0].revents ? RPC_BYTES : fds[1].revents ? RPC_WOKEN : RPC_NOTHING;
 }
 
 static void write_all(struct rpc *rpc, const char *bytes, size_t count) {

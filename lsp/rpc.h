@@ -19,6 +19,8 @@ enum rpc_error_code {
     RPC_METHOD_NOT_FOUND = -32601,
     RPC_INVALID_PARAMS = -32602,
     RPC_NOT_INITIALIZED = -32002,
+    RPC_REQUEST_CANCELLED = -32800,
+    RPC_CONTENT_MODIFIED = -32801,
     RPC_REQUEST_FAILED = -32803,
 };
 
@@ -27,11 +29,18 @@ enum rpc_state {
     RPC_END,
 };
 
+enum rpc_pending {
+    RPC_NOTHING, // the time is over
+    RPC_BYTES,   // rpc_read need not wait for the first byte
+    RPC_WOKEN,   // `woken` can be read, and there are no bytes
+};
+
 // Takes a message that the server sends: JSON in UTF-8, only for the call.
 typedef void rpc_sender(void *context, const char *text, size_t length);
 
 struct rpc {
     int in, out;
+    int woken;              // another descriptor that rpc_wait looks at; -1: none
     rpc_sender *sender;     // in place of both; NULL: there is none
     void *context;          // of it
     struct strbuf received; // bytes not yet parsed
@@ -48,8 +57,8 @@ void rpc_finish(struct rpc *rpc);
 json_t *rpc_parse(struct rpc *rpc, const char *text, size_t length);
 // Waits for a message.
 enum rpc_state rpc_read(struct rpc *rpc, json_t **message);
-// Whether, within that many milliseconds, rpc_read no longer has to wait for bytes.
-bool rpc_pending(const struct rpc *rpc, int wait_ms);
+// Waits at most that many milliseconds; -1: for ever.
+enum rpc_pending rpc_wait(const struct rpc *rpc, int wait_ms);
 void rpc_reply(struct rpc *rpc, json_t *id, json_t *result);
 void rpc_refuse(struct rpc *rpc, json_t *id, enum rpc_error_code code, const char *message);
 void rpc_notify(struct rpc *rpc, const char *method, json_t *params);

@@ -46,8 +46,9 @@ static void choose_texts(struct server *server, const json_t *client) {
 
 static json_t *capabilities(const struct server *server) {
     static const char *const encodings[] = {"utf-16", "utf-8", "utf-32"};
+    json_t *commands = server->preview ? json_pack("{s:[s]}", "commands", SERVER_PREVIEW) : NULL;
     return json_pack("{s:s, s:{s:b, s:i, s:{s:b}}, s:{s:[s,s]}, s:b, s:b, s:{s:b}, s:b, s:b, s:{}, "
-                     "s:{s:[s,s,s,s,s]}, s:b, s:b}",
+                     "s:{s:[s,s,s,s,s]}, s:b, s:b, s:o*}",
                      "positionEncoding", encodings[server->encoding], //
                      "textDocumentSync", "openClose", 1, "change", 2, // incremental
                      "save", "includeText", 0,                        //
@@ -60,7 +61,8 @@ static json_t *capabilities(const struct server *server) {
                      "documentLinkProvider",                 //
                      "completionProvider", "triggerCharacters", ":", "\"", "/", " ", "<",
                      "documentFormattingProvider", 1, //
-                     "colorProvider", 1);
+                     "colorProvider", 1,              //
+                     "executeCommandProvider", commands);
 }
 
 static json_t *initialize(struct server *server, const json_t *params) {
@@ -111,6 +113,10 @@ static void did_save(struct server *server, const json_t *params) {
     (void)params;
     scenes_touch(&server->scenes, STR(""));
     server->was_saved = true;
+}
+
+static void cancel(struct server *server, const json_t *params) {
+    server_preview_cancel(server, json_object_get(params, "id"));
 }
 
 // The files that a scene can be made of: "**/*.{yaml,yml,...}".
@@ -173,18 +179,14 @@ static const struct {
     const char *method;
     void (*take)(struct server *server, const json_t *params);
 } notifications[] = {
-    {"initialized", initialized},           {"textDocument/didOpen", did_open},
-    {"textDocument/didChange", did_change}, {"textDocument/didClose", did_close},
-    {"textDocument/didSave", did_save},     {"workspace/didChangeWatchedFiles", did_save},
+    {"initialized", initialized},
+    {"textDocument/didOpen", did_open},
+    {"textDocument/didChange", did_change},
+    {"textDocument/didClose", did_close},
+    {"textDocument/didSave", did_save},
+    {"workspace/didChangeWatchedFiles", did_save},
+    {"$/cancelRequest", cancel},
 };
-
-static void refresh(struct server *server, enum scenes_effort effort) {
-    bool changed = scenes_refresh(&server->scenes, effort);
-    server->was_saved = false;
-    server_forget(server);
-    if (changed)
-        server_publish(server);
-}
 
 struct answering {
     server_answer *answer;
@@ -227,6 +229,14 @@ static json_t *answer(struct server *server, const struct method *method, const 
     return answering.result;
 }
 
+static void execute(struct server *server, json_t *id, const json_t *params) {
+    const char *command = json_string_value(json_object_get(params, "command"));
+    if (command && strcmp(command, SERVER_PREVIEW) == 0)
+        server_preview_ask(server, id, params);
+    else
+        rpc_refuse(&server->rpc, id, RPC_INVALID_PARAMS, "this command is not supported");
+}
+
 static void take_request(struct server *server, const char *method, json_t *id, const json_t *params) {
     if (strcmp(method, "initialize") == 0 && !server->initialized) {
         rpc_reply(&server->rpc, id, initialize(server, params));
@@ -239,14 +249,19 @@ static void take_request(struct server *server, const char *method, json_t *id, 
     }
     if (strcmp(method, "shutdown") == 0) {
         server->shut_down = true;
+        server_preview_drop(server);
         rpc_reply(&server->rpc, id, NULL);
+        return;
+    }
+    if (server->preview && strcmp(method, "workspace/executeCommand") == 0) {
+        execute(server, id, params);
         return;
     }
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         if (strcmp(method, methods[i].name) != 0)
             continue;
         bool good;
-        refresh(server, SCENES_QUICK);
+        server_refresh(server, SCENES_QUICK);
         json_t *result = answer(server, &methods[i], params, &good);
         if (good && server->refusal)
             rpc_refuse(&server->rpc, id, RPC_REQUEST_FAILED, server->refusal);
@@ -293,6 +308,7 @@ static void start(struct server *server, const struct session_options *settings)
 
 // Returns the exit status.
 static int end(struct server *server) {
+    server_preview_destroy(server->preview);
     scenes_finish(&server->scenes);
     documents_finish(&server->documents);
     json_decref(server->published);
@@ -303,17 +319,22 @@ static int end(struct server *server) {
 }
 
 int lsp_serve(int in, int out, const char *version, const struct session_options *settings,
-              struct lsp_fault *fault) {
+              const struct preview_devices *devices, struct lsp_fault *fault) {
     struct server server = {.version = version};
     rpc_init(&server.rpc, in, out);
     start(&server, settings);
+    server.preview = server_preview_create(devices);
+    server.rpc.woken = server_preview_woken(server.preview);
     bool goes_on = server.scenes.store != NULL;
     while (goes_on && !server.rpc.broken) {
+        bool draws = server_preview_step(&server);
         // Many keys may have been pressed since the last check: only the newest text counts.
-        if (!rpc_pending(&server.rpc, 0))
+        if (rpc_wait(&server.rpc, 0) != RPC_BYTES)
             lsp_refresh(&server, false);
-        if (scenes_are_partial(&server.scenes) && !rpc_pending(&server.rpc, IDLE_MS))
+        if (scenes_are_partial(&server.scenes) && rpc_wait(&server.rpc, IDLE_MS) == RPC_NOTHING)
             lsp_refresh(&server, true);
+        if (draws && rpc_wait(&server.rpc, -1) == RPC_WOKEN)
+            continue;
         json_t *message;
         goes_on = rpc_read(&server.rpc, &message) == RPC_MESSAGE;
         if (!goes_on)
@@ -348,7 +369,7 @@ bool lsp_take(struct server *server, const char *text, size_t length) {
 }
 
 bool lsp_refresh(struct server *server, bool idle) {
-    refresh(server, idle || server->was_saved ? SCENES_WHOLE : SCENES_QUICK);
+    server_refresh(server, idle || server->was_saved ? SCENES_WHOLE : SCENES_QUICK);
     return scenes_are_partial(&server->scenes);
 }
 

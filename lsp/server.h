@@ -5,13 +5,14 @@
 // definitions and uses of names, over includes and spellings; meshes, images and includes as links; names,
 // words and files as completions; the outline; formatting. It reads files and writes none: changes are sent
 // to the editor.
-// Thread safety: one thread.
+// Thread safety: one thread; previews are drawn on one of their own.
 #ifndef GLINT_LSP_SERVER_H
 #define GLINT_LSP_SERVER_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
+struct preview_devices; // app/preview/preview.h
 struct session_options;
 
 // Why a stream of the server could not be read or written.
@@ -21,13 +22,14 @@ struct lsp_fault {
 };
 
 // Serves until the client says `exit` or hangs up, or a stream fails. `settings`: the limits, folders and
-// policy of every scene. The exit status that the protocol asks for: 0 after `shutdown`, else 1.
+// policy of every scene. `devices`: what draws previews; NULL: the reference does. The exit status that the
+// protocol asks for: 0 after `shutdown`, else 1.
 int lsp_serve(int in, int out, const char *version, const struct session_options *settings,
-              struct lsp_fault *fault);
+              const struct preview_devices *devices, struct lsp_fault *fault);
 
-// The same where no stream can be waited for, as in a web worker. lsp_open returns NULL where memory ends;
-// lsp_close takes its result and returns the exit status. `send` gets each message of the server, JSON in
-// UTF-8 without a header, within lsp_take and lsp_refresh, and must not call them.
+// The same where no stream can be waited for, as in a web worker, and without previews. lsp_open returns NULL
+// where memory ends; lsp_close takes its result and returns the exit status. `send` gets each message of the
+// server, JSON in UTF-8 without a header, within lsp_take and lsp_refresh, and must not call them.
 struct server *lsp_open(const char *version, const struct session_options *settings,
                         void (*send)(void *context, const char *text, size_t length), void *context);
 // A message of the client. false: it said `exit`.

@@ -26,7 +26,8 @@ struct server {
         uint32_t source;
         char *text;
     } uri;
-    const char *refusal; // why a request is refused; NULL: it is not
+    struct server_preview *preview; // NULL: pictures are not offered
+    const char *refusal;            // why a request is refused; NULL: it is not
 };
 
 // A request about an open document, or a place in it.
@@ -50,6 +51,8 @@ void server_forget(struct server *server);
 
 // Diagnostics of all scenes, to the client if they have changed (lsp/publish.c).
 void server_publish(struct server *server);
+// Loads what has changed, and tells what is new in it.
+void server_refresh(struct server *server, enum scenes_effort effort);
 json_t *server_diagnostic(struct server *server, struct session *session, struct arena *arena,
                           const struct diag *diag);
 
@@ -59,5 +62,24 @@ typedef json_t *server_answer(const struct request *request);
 server_answer server_code_actions, server_definition, server_references, server_prepare_rename, server_rename,
     server_hover, server_symbols, server_links, server_completion, server_formatting, server_colors,
     server_color_texts;
+
+// ---- preview.c
+
+#define SERVER_PREVIEW "glint.preview" // the command
+
+struct preview_devices;
+// NULL: no memory.
+struct server_preview *server_preview_create(const struct preview_devices *devices);
+void server_preview_destroy(struct server_preview *preview);
+// A descriptor that can be read when server_preview_step has something to do; -1: there is none.
+int server_preview_woken(const struct server_preview *preview);
+// A request to execute the command, that a picture will answer.
+void server_preview_ask(struct server *server, json_t *id, const json_t *params);
+// Answers what is drawn, and begins what waits. Whether something is being drawn.
+bool server_preview_step(struct server *server);
+// The client wants no answer to a request any more.
+void server_preview_cancel(struct server *server, const json_t *id);
+// Nor to any.
+void server_preview_drop(struct server *server);
 
 #endif

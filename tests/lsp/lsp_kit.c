@@ -137,7 +137,7 @@ json_t *client_receive(struct lsp_client *client) {
     return message;
 }
 
-json_t *client_request(struct lsp_client *client, const char *method, json_t *params, json_t **error) {
+int client_ask(struct lsp_client *client, const char *method, json_t *params) {
     json_t *message = json_object();
     int id = ++client->last_id;
     json_object_set_new(message, "id", json_integer(id));
@@ -145,20 +145,27 @@ json_t *client_request(struct lsp_client *client, const char *method, json_t *pa
     if (params)
         json_object_set_new(message, "params", params);
     send_message(client, message);
+    return id;
+}
+
+json_t *client_answer(struct lsp_client *client, int id) {
     for (;;) {
         json_t *answer = client_receive(client);
         if (!answer)
             give_up("the server has ended");
-        if (json_integer_value(json_object_get(answer, "id")) != id) {
-            json_decref(answer);
-            continue;
-        }
-        json_t *result = json_incref(json_object_get(answer, "result"));
-        if (error)
-            *error = json_incref(json_object_get(answer, "error"));
+        if (json_integer_value(json_object_get(answer, "id")) == id)
+            return answer;
         json_decref(answer);
-        return result;
     }
+}
+
+json_t *client_request(struct lsp_client *client, const char *method, json_t *params, json_t **error) {
+    json_t *answer = client_answer(client, client_ask(client, method, params));
+    json_t *result = json_incref(json_object_get(answer, "result"));
+    if (error)
+        *error = json_incref(json_object_get(answer, "error"));
+    json_decref(answer);
+    return result;
 }
 
 void client_notify(struct lsp_client *client, const char *method, json_t *params) {

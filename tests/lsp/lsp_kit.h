@@ -28,6 +28,10 @@ void client_initialize(struct lsp_client *client, json_t *capabilities);
 // Sends a request and waits for its answer; gives `result` (new reference), or the error object where
 // `error` is not NULL and the server refused.
 json_t *client_request(struct lsp_client *client, const char *method, json_t *params, json_t **error);
+// The same in two halves: the request's id, and the whole answer to it (new reference); answers to others
+// that come before it are lost.
+int client_ask(struct lsp_client *client, const char *method, json_t *params);
+json_t *client_answer(struct lsp_client *client, int id);
 void client_notify(struct lsp_client *client, const char *method, json_t *params);
 void client_send_bytes(struct lsp_client *client, const char *bytes, size_t length);
 // The next message, whatever it is (new reference); NULL where the server has ended.

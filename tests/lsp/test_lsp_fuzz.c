@@ -173,6 +173,7 @@ static void ask_something(struct lsp_client *client, uint64_t *state) {
                                           "textDocument/formatting",
                                           "textDocument/documentColor",
                                           "textDocument/colorPresentation",
+                                          "workspace/executeCommand",
                                           "initialize",
                                           "nonsense"};
     static const char *const names[] = {"window", "", "9", "gl ass", "\xC3\xA9t\xC3\xA9"};

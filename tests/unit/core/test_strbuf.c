@@ -39,6 +39,21 @@ static void escapes_markup_alone(void **state) {
     strbuf_finish(&buffer);
 }
 
+// The vectors of RFC 4648, section 10.
+static void codes_bytes_as_text(void **state) {
+    (void)state;
+    static const char *const texts[] = {
+        "",     "",     "f",        "Zg==",  "fo",       "Zm8=",   "foo",
+        "Zm9v", "foob", "Zm9vYg==", "fooba", "Zm9vYmE=", "foobar", "Zm9vYmFy"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i += 2) {
+        struct strbuf buffer;
+        strbuf_init(&buffer);
+        strbuf_base64(&buffer, texts[i], strlen(texts[i]));
+        assert_string_equal(strbuf_view(&buffer).ptr, texts[i + 1]);
+        strbuf_finish(&buffer);
+    }
+}
+
 static void grows_far(void **state) {
     (void)state;
     struct strbuf buffer;
@@ -105,11 +120,9 @@ static void sizes_that_overflow_fail(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(appends_in_every_way),
-        cmocka_unit_test(escapes_markup_alone),
-        cmocka_unit_test(grows_far),
-        cmocka_unit_test(clear_keeps_memory),
-        cmocka_unit_test(cap_stops_whole_appends),
+        cmocka_unit_test(appends_in_every_way),     cmocka_unit_test(escapes_markup_alone),
+        cmocka_unit_test(codes_bytes_as_text),      cmocka_unit_test(grows_far),
+        cmocka_unit_test(clear_keeps_memory),       cmocka_unit_test(cap_stops_whole_appends),
         cmocka_unit_test(sizes_that_overflow_fail),
     };
     return cmocka_run_group_tests_name("strbuf", tests, NULL, NULL);
