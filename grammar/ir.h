@@ -68,6 +68,17 @@ enum ir_wrap {
     IR_WRAP_CLAMP,
     IR_WRAP_MIRROR
 };
+enum ir_interpolation {
+    IR_INTERPOLATION_LINEAR,
+    IR_INTERPOLATION_SMOOTH,
+    IR_INTERPOLATION_EASE,
+    IR_INTERPOLATION_STEP
+};
+enum ir_loop {
+    IR_LOOP_NONE,
+    IR_LOOP_REPEAT,
+    IR_LOOP_MIRROR
+};
 
 struct ir_image {
     struct ir_head head;
@@ -232,6 +243,39 @@ struct ir_include {
     str file; // path as written
 };
 
+// A value of a track at a frame.
+struct ir_keyframe {
+    struct ir_head head;
+    int32_t frame;
+    str value; // SCHEMA_TEXT_VALUES
+};
+struct ir_keyframes {
+    struct ir_keyframe *items;
+    uint32_t count, capacity;
+};
+
+// How one value of the scene moves: through `keys`, or as `value` says.
+struct ir_track {
+    struct ir_head head;
+    str target;             // the way to the value, as written
+    str value;              // SCHEMA_TEXT_VALUES; empty: keys
+    unsigned interpolation; // ir_interpolation
+    unsigned loop;          // ir_loop
+    struct ir_keyframes keys;
+};
+struct ir_tracks {
+    struct ir_track *items;
+    uint32_t count, capacity;
+};
+
+struct ir_animation {
+    struct ir_head head;
+    int32_t frames;
+    double rate;   // frames per second
+    int32_t frame; // that the scene shows, where it is written; else it shows its values as they are
+    struct ir_tracks tracks;
+};
+
 struct ir_includes {
     struct ir_include *items;
     uint32_t count, capacity;
@@ -277,6 +321,7 @@ struct ir_scene {
     struct ir_spheres spheres;
     struct ir_rectangles rectangles;
     struct ir_models models;
+    struct ir_animation animation; // at its defaults once a frame was taken
 };
 
 // Bodies are numbered spheres, rectangles, models, each in file order.

@@ -1,55 +1,9 @@
 #include "grammar/schema.h"
 
 #include "grammar/ir.h"
+#include "grammar/schema_field.h"
 #include "picture/formats/formats.h"
 #include "shaders/features.h"
-
-#include <stddef.h>
-
-// The kind of a row follows from the C type of its field.
-// clang-format off
-#define KIND_OF(field)                                                                                       \
-    _Generic((field),                                                                                        \
-        bool: SCHEMA_BOOLEAN,                                                                                \
-        int32_t: SCHEMA_INTEGER,                                                                             \
-        double: SCHEMA_NUMBER,                                                                               \
-        unsigned: SCHEMA_WORD,                                                                               \
-        str: SCHEMA_TEXT,                                                                                    \
-        vec3: SCHEMA_VECTOR,                                                                                 \
-        struct ir_pair: SCHEMA_PAIR,                                                                         \
-        struct ir_color: SCHEMA_COLOR,                                                                       \
-        struct ir_weights: SCHEMA_WEIGHTS,                                                                   \
-        struct ir_material_ref: SCHEMA_REFERENCE,                                                            \
-        struct ir_image: SCHEMA_ELEMENT,                                                                     \
-        struct ir_trace: SCHEMA_ELEMENT,                                                                     \
-        struct ir_background: SCHEMA_ELEMENT,                                                                \
-        struct ir_ambient: SCHEMA_ELEMENT,                                                                   \
-        struct ir_panel: SCHEMA_ELEMENT,                                                                     \
-        struct ir_paint: SCHEMA_ELEMENT,                                                                     \
-        struct ir_checker: SCHEMA_ELEMENT,                                                                   \
-        struct ir_texture: SCHEMA_ELEMENT,                                                                   \
-        struct ir_highlight: SCHEMA_ELEMENT,                                                                 \
-        struct ir_includes: SCHEMA_LIST,                                                                     \
-        struct ir_cameras: SCHEMA_LIST,                                                                      \
-        struct ir_lights: SCHEMA_LIST,                                                                       \
-        struct ir_materials: SCHEMA_LIST,                                                                    \
-        struct ir_spheres: SCHEMA_LIST,                                                                      \
-        struct ir_rectangles: SCHEMA_LIST,                                                                   \
-        struct ir_models: SCHEMA_LIST,                                                                       \
-        struct ir_map_entries: SCHEMA_LIST)
-// clang-format on
-
-#define FIELD(type, member)                                                                                  \
-    .kind = KIND_OF(((struct type *)0)->member), .offset = offsetof(struct type, member),                    \
-    .size = sizeof(((struct type *)0)->member)
-
-#define FIELD_PAIR(type, member)                                                                             \
-    .kind = KIND_OF(((struct type *)0)->member[0]), .offset = offsetof(struct type, member),                 \
-    .size = sizeof(((struct type *)0)->member[0]), .many = SCHEMA_FIXED, .fixed_count = 2
-
-#define ELEMENT(snake, pascal, type, table, sentence)                                                        \
-    .name = snake, .element = pascal, .doc = sentence, .rows = table,                                        \
-    .row_count = sizeof(table) / sizeof((table)[0]), .size = sizeof(struct type)
 
 static const char *const tone_words[] = {"clip", "normalize", NULL};
 static const char *const tone_docs[] = {
@@ -541,6 +495,8 @@ static const struct schema_row scene_rows[] = {
     {.name = "model", .element = "Model", .plural = "models", FIELD(ir_scene, models),
      .also = "mesh meshes object objects shape shapes obj",
      .many = SCHEMA_SEQUENCE, .child = &SCHEMA_MODEL, .feature = FEATURE_TRIANGLES, .doc = "Meshes placed in the scene."},
+    {.name = "animation", .element = "Animation", FIELD(ir_scene, animation), .child = &SCHEMA_ANIMATION,
+     .also = "animate motion keyframes timeline", .doc = "How values move from frame to frame."},
 };
 const struct schema_element SCHEMA_SCENE = {
     ELEMENT("scene", "Scene", ir_scene, scene_rows, "The root of a scene file.")};
@@ -548,23 +504,15 @@ const struct schema_element SCHEMA_SCENE = {
 // clang-format on
 
 const struct schema_element *const schema_elements[] = {
-    &SCHEMA_SCENE,
-    &SCHEMA_INCLUDE,
-    &SCHEMA_IMAGE,
-    &SCHEMA_TRACE,
-    &SCHEMA_CAMERA,
-    &SCHEMA_BACKGROUND,
-    &SCHEMA_AMBIENT,
-    &SCHEMA_LIGHT,
-    &SCHEMA_PANEL,
-    &SCHEMA_MATERIAL,
-    &SCHEMA_PAINT,
-    &SCHEMA_CHECKER,
-    &SCHEMA_TEXTURE,
-    &SCHEMA_HIGHLIGHT,
-    &SCHEMA_SPHERE,
-    &SCHEMA_RECTANGLE,
-    &SCHEMA_MODEL,
-    &SCHEMA_MAP_ENTRY,
-    NULL,
+    &SCHEMA_SCENE,     &SCHEMA_INCLUDE,
+    &SCHEMA_IMAGE,     &SCHEMA_TRACE,
+    &SCHEMA_CAMERA,    &SCHEMA_BACKGROUND,
+    &SCHEMA_AMBIENT,   &SCHEMA_LIGHT,
+    &SCHEMA_PANEL,     &SCHEMA_MATERIAL,
+    &SCHEMA_PAINT,     &SCHEMA_CHECKER,
+    &SCHEMA_TEXTURE,   &SCHEMA_HIGHLIGHT,
+    &SCHEMA_SPHERE,    &SCHEMA_RECTANGLE,
+    &SCHEMA_MODEL,     &SCHEMA_MAP_ENTRY,
+    &SCHEMA_ANIMATION, &SCHEMA_TRACK,
+    &SCHEMA_KEYFRAME,  NULL,
 };

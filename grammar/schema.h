@@ -39,6 +39,9 @@ enum schema_text {
     SCHEMA_TEXT_BODY_NAME,    // a name of the language that a body has
     SCHEMA_TEXT_FOREIGN_NAME, // a name from another file: any text but the empty one
     SCHEMA_TEXT_PATH,
+    SCHEMA_TEXT_TARGET, // the way to a number of the scene, as --set has it: any text but the empty one
+    SCHEMA_TEXT_VALUES, // one to four numbers, expressions (motion/expression.h) or #rrggbb, with ", "
+                        // between them; YAML: one of them, or a list
 };
 
 // Which kind of file a SCHEMA_TEXT_PATH names.
@@ -77,6 +80,9 @@ enum schema_range {
     SCHEMA_RANGE_SHIFT,      // -1e6..1e6
     SCHEMA_RANGE_SIZE,       // 0..1e18
     SCHEMA_RANGE_OPENING,    // 0..180
+    SCHEMA_RANGE_FRAMES,     // 1..100000
+    SCHEMA_RANGE_FRAME,      // 0..100000
+    SCHEMA_RANGE_RATE,       // 0.001..1000
     SCHEMA_RANGE_COUNT,
 };
 
@@ -157,7 +163,7 @@ struct schema_element {
 extern const struct schema_element SCHEMA_SCENE, SCHEMA_INCLUDE, SCHEMA_IMAGE, SCHEMA_TRACE, SCHEMA_CAMERA,
     SCHEMA_BACKGROUND, SCHEMA_AMBIENT, SCHEMA_LIGHT, SCHEMA_PANEL, SCHEMA_MATERIAL, SCHEMA_PAINT,
     SCHEMA_CHECKER, SCHEMA_TEXTURE, SCHEMA_HIGHLIGHT, SCHEMA_SPHERE, SCHEMA_RECTANGLE, SCHEMA_MODEL,
-    SCHEMA_MAP_ENTRY;
+    SCHEMA_MAP_ENTRY, SCHEMA_ANIMATION, SCHEMA_TRACK, SCHEMA_KEYFRAME;
 
 // All elements, the scene first; NULL at the end.
 extern const struct schema_element *const schema_elements[];

@@ -33,6 +33,9 @@ static const struct schema_range_info ranges[SCHEMA_RANGE_COUNT] = {
     [SCHEMA_RANGE_SHIFT] = {"shift", -1e6, 1e6, false, false, "from -1e6 to 1e6"},
     [SCHEMA_RANGE_SIZE] = {"size", 0, 1e18, false, false, "from 0 to 1e18"},
     [SCHEMA_RANGE_OPENING] = {"opening", 0, 180, false, false, "from 0 to 180"},
+    [SCHEMA_RANGE_FRAMES] = {"frames", 1, 100000, false, false, "from 1 to 100000"},
+    [SCHEMA_RANGE_FRAME] = {"frame", 0, 100000, false, false, "from 0 to 100000"},
+    [SCHEMA_RANGE_RATE] = {"rate", 0.001, 1000, false, false, "from 0.001 to 1000"},
 };
 
 const struct schema_range_info *schema_range_info(enum schema_range range) {

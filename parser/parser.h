@@ -1,6 +1,6 @@
 // From a scene file to the IR. All diagnostics of all stages in one run.
 //
-// There are eight stages (stages/parser.c). After each, what is said of it and of those before holds:
+// There are nine stages (stages/parser.c). After each, what is said of it and of those before holds:
 // 1 read      The file is a tree of its tokens, each with its place. No name of the language was looked up.
 //             What is wrong in the syntax is reported, and marked TREE_BAD or TREE_CUT.
 // 2 bind      The file is an IR of its own. Each value is right by its row of the table; or it is reported,
@@ -10,9 +10,12 @@
 // 4 merge     There is one scene. Lists are joined; of elements that are there once the including file's
 //             attributes win. The IR of each file stays in origin.files.
 // 5 override  The --set options are applied, in their order, and bound by the same rules.
-// 6 names     No two things share a name, and each reference has its index; else it is reported.
-// 7 compact   Anonymous elements that no reference uses are gone. The IR no longer changes.
-// 8 validate  The rules that a table cannot say hold; else it is reported.
+// 6 animate   Where a frame of the animation is asked for, the values are those of that frame, and the scene
+// has
+//             no animation; else all of its frames were looked at.
+// 7 names     No two things share a name, and each reference has its index; else it is reported.
+// 8 compact   Anonymous elements that no reference uses are gone. The IR no longer changes.
+// 9 validate  The rules that a table cannot say hold; else it is reported.
 // Diagnostics about an included file then say where it is included. parser_load_file runs the first two.
 //
 // Ownership: IR and places live in `arena`; sources keep the text. The caller owns everything in

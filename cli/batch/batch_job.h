@@ -38,6 +38,19 @@ struct batch {
     enum batch_film film; // of the only output
 };
 
+// What a scene says of its frames.
+struct batch_motion {
+    bool is_animated, is_good; // is_good: it could be read
+    int32_t frames;
+    double rate; // frames a second
+};
+// batch_motion.c: reads only text, with the first frame's and the sweep's first values.
+struct batch_motion batch_motion_of(struct cli *cli, const char *scene, const str *sets, uint32_t set_count);
+// Reports that there are no frames to be 'all'. An exit code.
+int batch_no_animation(struct cli *cli, const char *scene);
+// Where --frames is 'all', of one scene: says which they are, in the options. An exit code, as batch_plan.
+int batch_take_all(struct cli *cli, const char *scene);
+
 // The jobs; CLI_OK, or an exit code with the mistake reported.
 int batch_plan(struct batch *batch);
 // The names of the jobs' pictures, all different.

@@ -1,4 +1,4 @@
-// --frames, --fps, --sweep, --list, --montage and --keep-going.
+// --frames, --frame, --fps, --sweep, --list, --montage and --keep-going.
 #include "cli/cli.h"
 #include "core/number.h"
 
@@ -35,23 +35,38 @@ static bool split(str text, const char *word, str *before, str *after) {
 static bool read_frames(struct cli *cli, int arg, const char *value) {
     struct cli_batch *b = &cli->options.batch;
     str first, rest, last, step;
+    b->all_frames = strcmp(value, "all") == 0;
     const bool is_range = split(str_from(value), "..", &first, &rest);
     const bool has_step = split(rest, ":", &last, &step);
     b->frame_step = 1;
-    bool good = take_integer(first, &b->first_frame);
+    bool good = b->all_frames || take_integer(first, &b->first_frame);
+    b->first_frame = b->all_frames ? 0 : b->first_frame;
     b->last_frame = b->first_frame;
     good = good && (!is_range || take_integer(last, &b->last_frame));
     good = good && (!has_step || (take_integer(step, &b->frame_step) && b->frame_step > 0));
     b->has_frames = true;
     b->frames_arg = arg;
     if (!good)
-        cli_usage(cli, arg, "--frames takes A..B, A..B:STEP or one frame, whole numbers from 0, not '%s'",
+        cli_usage(cli, arg,
+                  "--frames takes 'all', A..B, A..B:STEP or one frame, whole numbers from 0, not '%s'",
                   value);
     else if (b->last_frame < b->first_frame)
         cli_usage(cli, arg, "--frames ends before it begins: '%s'", value);
     else
         return true;
     return false;
+}
+
+// As --set would give it.
+static bool read_frame(struct cli *cli, int arg, const char *value) {
+    int32_t frame;
+    if (!take_integer(str_from(value), &frame)) {
+        cli_usage(cli, arg, "--frame takes a whole number from 0, not '%s'", value);
+        return false;
+    }
+    *(str *)ARENA_PUSH(&cli->arena, &cli->options.sets) =
+        arena_format(&cli->arena, "animation.frame=%d", (int)frame);
+    return true;
 }
 
 static bool read_fps(struct cli *cli, int arg, const char *value) {
@@ -123,6 +138,8 @@ bool cli_batch_apply(struct cli *cli, int arg, enum cli_batch_option option, con
     switch (option) {
     case CLI_BATCH_FRAMES:
         return read_frames(cli, arg, value);
+    case CLI_BATCH_FRAME:
+        return read_frame(cli, arg, value);
     case CLI_BATCH_FPS:
         return read_fps(cli, arg, value);
     case CLI_BATCH_SWEEP:

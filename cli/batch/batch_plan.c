@@ -1,8 +1,8 @@
 // From the command line to jobs: scenes, in each the sweep's grid, in each the frames, in each the cameras.
-#include "app/frames/expression.h"
 #include "cli/batch/batch_job.h"
 #include "files/stream.h"
 #include "grammar/ir.h"
+#include "motion/expression.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -27,13 +27,19 @@ bool batch_is_wanted(const struct cli *cli) {
 
 // ---- the scenes
 
+struct scene_of {
+    const char *path;
+    bool is_animated;
+    int32_t last; // frame
+};
+
 struct scenes {
-    const char **items;
+    struct scene_of *items;
     uint32_t count, capacity;
 };
 
 static void add_scene(struct cli *cli, struct scenes *scenes, const char *path) {
-    *(const char **)ARENA_PUSH(&cli->arena, scenes) = path;
+    *(struct scene_of *)ARENA_PUSH(&cli->arena, scenes) = (struct scene_of){.path = path};
 }
 
 static int read_list(struct cli *cli, struct strbuf *text) {
@@ -87,7 +93,7 @@ static int take_scenes(struct cli *cli, struct scenes *scenes) {
 static bool fill(struct batch *batch, uint32_t set, int32_t frame, str *out, bool *filled) {
     struct cli *cli = batch->cli;
     const str text = cli->options.sets.items[set];
-    const struct expression_at at = {.frame = frame, .time = frame / batch->fps};
+    const struct expression_at at = {.frame = frame, .time = frame / (batch->fps > 0 ? batch->fps : 25)};
     struct expression_fault fault;
     struct strbuf buffer;
     strbuf_init(&buffer);
@@ -108,12 +114,13 @@ static bool fill(struct batch *batch, uint32_t set, int32_t frame, str *out, boo
     return false;
 }
 
-// The frame's --set options, and after them `values` of the sweep.
-static bool take_sets(struct batch *batch, const str *values, struct batch_job *job, bool *moves) {
+// The frame's --set options, after them `values` of the sweep, and the frame of the scene's own animation.
+static bool take_sets(struct batch *batch, const struct scene_of *scene, const str *values,
+                      struct batch_job *job, bool *moves) {
     struct cli *cli = batch->cli;
     const struct cli_batch *b = &cli->options.batch;
     const uint32_t given = cli->options.sets.count;
-    str *sets = ARENA_ARRAY(&cli->arena, str, (size_t)given + b->sweeps.count + 1);
+    str *sets = ARENA_ARRAY(&cli->arena, str, (size_t)given + b->sweeps.count + 2);
     bool good = true;
     for (uint32_t i = 0; i < given && good; i++) {
         bool filled = false;
@@ -129,6 +136,10 @@ static bool take_sets(struct batch *batch, const str *values, struct batch_job *
     }
     job->sets = sets;
     job->set_count = given + b->sweeps.count;
+    if (job->has_frame && scene->is_animated) {
+        sets[job->set_count++] = arena_format(&cli->arena, "animation.frame=%d", (int)job->frame);
+        *moves = true;
+    }
     return good;
 }
 
@@ -178,11 +189,14 @@ static uint64_t grid_size(const struct cli_batch *b) {
     return size;
 }
 
-static int refuse_count(struct batch *batch, uint64_t scenes) {
+static int refuse_count(struct batch *batch, const struct scenes *scenes) {
     const struct cli_batch *b = &batch->cli->options.batch;
-    const uint64_t frames =
-        b->has_frames ? (uint64_t)(b->last_frame - b->first_frame) / (uint64_t)b->frame_step + 1 : 1;
-    if (grid_size(b) * frames * scenes <= JOBS_MAX)
+    uint64_t frames = 0;
+    for (uint32_t i = 0; i < scenes->count; i++)
+        frames += b->has_frames
+                      ? (uint64_t)(scenes->items[i].last - b->first_frame) / (uint64_t)b->frame_step + 1
+                      : 1;
+    if (grid_size(b) * frames <= JOBS_MAX)
         return CLI_OK;
     return cli_usage(batch->cli,
                      b->frames_arg     ? b->frames_arg
@@ -196,19 +210,21 @@ static int refuse_still(struct batch *batch) {
     struct cli *cli = batch->cli;
     const int status = cli_usage(cli, cli->options.batch.frames_arg,
                                  "all frames would be the same picture: nothing depends on the frame");
-    diag_help(&cli->sink, "write expressions of 'frame' or 'time' in braces, for example --set "
-                          "'camera.position=[{4*cos(tau*frame/100)}, 1, {4*sin(tau*frame/100)}]'");
+    diag_help(
+        &cli->sink,
+        "write an animation in the scene, or expressions of 'frame' or 'time' in braces, for example --set "
+        "'camera.position=[{4*cos(tau*frame/100)}, 1, {4*sin(tau*frame/100)}]'");
     return status;
 }
 
-static bool add_frames(struct batch *batch, const char *scene, const str *values, bool *moves) {
+static bool add_frames(struct batch *batch, const struct scene_of *scene, const str *values, bool *moves) {
     const struct cli_batch *b = &batch->cli->options.batch;
-    for (int64_t frame = b->first_frame; frame <= b->last_frame; frame += b->has_frames ? b->frame_step : 1) {
-        struct batch_job job = {.scene = scene,
+    for (int64_t frame = b->first_frame; frame <= scene->last; frame += b->has_frames ? b->frame_step : 1) {
+        struct batch_job job = {.scene = scene->path,
                                 .camera = batch->cli->options.camera,
                                 .has_frame = b->has_frames,
                                 .frame = (int32_t)frame};
-        if (!take_sets(batch, values, &job, moves))
+        if (!take_sets(batch, scene, values, &job, moves))
             return false;
         add_cameras(batch, job);
     }
@@ -226,20 +242,61 @@ static int add_grid(struct batch *batch, const struct scenes *scenes) {
             uint64_t rest = cell; // the last sweep changes fastest
             for (uint32_t i = b->sweeps.count; i-- > 0; rest /= b->sweeps.items[i].values.count)
                 values[i] = b->sweeps.items[i].values.items[rest % b->sweeps.items[i].values.count];
-            if (!add_frames(batch, scenes->items[s], values, &moves))
+            if (!add_frames(batch, &scenes->items[s], values, &moves))
                 return CLI_USAGE;
         }
-    return b->has_frames && b->last_frame > b->first_frame && !moves ? refuse_still(batch) : CLI_OK;
+    const bool several = batch->jobs.count > scenes->count * size;
+    return b->has_frames && several && !moves ? refuse_still(batch) : CLI_OK;
+}
+
+// ---- the scenes' own animations
+
+static int take_motion(struct batch *batch, struct scene_of *scene) {
+    struct cli *cli = batch->cli;
+    const struct cli_batch *b = &cli->options.batch;
+    str *values = ARENA_ARRAY(&cli->arena, str, (size_t)b->sweeps.count + 1);
+    struct batch_job job = {.scene = scene->path, .has_frame = true, .frame = b->first_frame};
+    bool moves = false;
+    for (uint32_t i = 0; i < b->sweeps.count; i++)
+        values[i] = b->sweeps.items[i].values.items[0];
+    if (!take_sets(batch, scene, values, &job, &moves))
+        return CLI_USAGE;
+    const struct batch_motion motion = batch_motion_of(cli, scene->path, job.sets, job.set_count);
+    scene->is_animated = motion.is_animated;
+    if (motion.is_animated && b->fps == 0 && batch->fps == 0)
+        batch->fps = motion.rate;
+    if (b->all_frames && !motion.is_animated && motion.is_good)
+        return batch_no_animation(cli, scene->path);
+    scene->last = !b->all_frames ? b->last_frame : motion.is_animated ? motion.frames - 1 : 0;
+    if (!motion.is_animated || scene->last < motion.frames)
+        return CLI_OK;
+    cli_usage(cli, b->frames_arg, "the animation of '%s' has %d frame%s, 0 to %d", scene->path,
+              (int)motion.frames, motion.frames == 1 ? "" : "s", (int)motion.frames - 1);
+    diag_help(&cli->sink, "--frames all renders them all; --set animation.frames=N makes more of them");
+    return CLI_USAGE;
+}
+
+static int take_motions(struct batch *batch, struct scenes *scenes) {
+    const struct cli_batch *b = &batch->cli->options.batch;
+    int status = CLI_OK;
+    for (uint32_t i = 0; i < scenes->count && status == CLI_OK; i++) {
+        scenes->items[i].last = b->last_frame;
+        if (b->has_frames)
+            status = take_motion(batch, &scenes->items[i]);
+    }
+    batch->fps = b->fps > 0 ? b->fps : batch->fps > 0 ? batch->fps : 25;
+    return status;
 }
 
 int batch_plan(struct batch *batch) {
     struct cli *cli = batch->cli;
     const struct cli_batch *b = &cli->options.batch;
     struct scenes scenes = {0};
-    batch->fps = b->fps > 0 ? b->fps : 25;
     int status = take_scenes(cli, &scenes);
     if (status == CLI_OK)
-        status = refuse_count(batch, scenes.count);
+        status = take_motions(batch, &scenes);
+    if (status == CLI_OK)
+        status = refuse_count(batch, &scenes);
     if (status == CLI_OK)
         status = add_grid(batch, &scenes);
     const uint32_t count = batch->jobs.count;

@@ -52,7 +52,8 @@ static int judge(struct batch_run *run) {
         const int status =
             cli_usage(cli, outputs->items[0].arg, "the output '%s' must end in %s for one picture",
                       outputs->items[0].path, IMAGE_WRITTEN_ENDINGS);
-        diag_help(&cli->sink, "for a film, say which frames: --frames 0..99");
+        diag_help(&cli->sink,
+                  "for a film, say which frames: --frames all, of the scene's animation, or --frames 0..99");
         return status;
     }
     if (run->batch.film && outputs->count > 1)

@@ -121,6 +121,10 @@ int farm_plan_make(struct cli *cli, struct farm_plan *plan) {
     const struct cli_farm *farm = &cli->options.farm;
     struct cli_outputs *outputs = &cli->options.outputs;
     plan->has_frames = b->has_frames;
+    plan->scene = cli->operands[0];
+    const int taken = batch_take_all(cli, plan->scene);
+    if (taken != CLI_OK)
+        return taken;
     plan->step = 1;
     if (b->has_frames) {
         plan->first = b->first_frame;
@@ -131,7 +135,6 @@ int farm_plan_make(struct cli *cli, struct farm_plan *plan) {
     plan->last = plan->first + (int32_t)(plan->frames - 1) * plan->step;
     plan->tiles = farm->tiles ? (uint32_t)farm->tiles : 1;
     plan->folder = farm->folder;
-    plan->scene = cli->operands[0];
     int status = judge_words(cli);
     if (status == CLI_OK)
         status = judge_options(cli, plan->engine);

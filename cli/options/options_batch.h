@@ -10,6 +10,7 @@
 
 enum cli_batch_option {
     CLI_BATCH_FRAMES,
+    CLI_BATCH_FRAME,
     CLI_BATCH_FPS,
     CLI_BATCH_SWEEP,
     CLI_BATCH_LIST,
@@ -32,6 +33,7 @@ struct cli_batch_sweep {
 
 struct cli_batch {
     bool has_frames;
+    bool all_frames; // of the animation: batch_take_all says which, for one scene
     int32_t first_frame, last_frame, frame_step;
     int frames_arg;
     double fps; // 0: not given

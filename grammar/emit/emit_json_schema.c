@@ -5,6 +5,7 @@
 #include "core/number.h"
 #include "grammar/emit/emit_lines.h"
 #include "grammar/emit/emit_words.h"
+#include "grammar/ir_values.h"
 
 #include <jansson.h>
 
@@ -82,6 +83,11 @@ static json_t *word_schema(const struct schema_row *row) {
 static json_t *text_schema(enum schema_text text) {
     if (text == SCHEMA_TEXT_NAME || text == SCHEMA_TEXT_BODY_NAME)
         return json_pack("{s:s, s:s}", "type", "string", "pattern", NAME_PATTERN);
+    if (text == SCHEMA_TEXT_VALUES) {
+        json_t *one = json_pack("{s:[s, s], s:i}", "type", "number", "string", "minLength", 1);
+        return json_pack("{s:[O, {s:s, s:o, s:i, s:i}]}", "anyOf", one, "type", "array", "items", one,
+                         "minItems", 1, "maxItems", IR_VALUES_MOST);
+    }
     if (text == SCHEMA_TEXT_FREE)
         return json_pack("{s:s}", "type", "string");
     return json_pack("{s:s, s:i}", "type", "string", "minLength", 1);

@@ -23,6 +23,8 @@ static void text_words(const struct schema_row *row, struct strbuf *out) {
         [SCHEMA_TEXT_BODY_NAME] = "name of a body",
         [SCHEMA_TEXT_FOREIGN_NAME] = "name in another file",
         [SCHEMA_TEXT_PATH] = "path",
+        [SCHEMA_TEXT_TARGET] = "way to a value",
+        [SCHEMA_TEXT_VALUES] = "one to four numbers or expressions",
     };
     static const char *const files[] = {"", " of a scene file", " of an image file", " of a mesh file"};
     strbuf_cstr(out, texts[row->text]);

@@ -66,7 +66,7 @@ static void fill(const struct schema_element *schema, void *element, struct aren
     for (uint32_t i = 0; i < schema->row_count; i++) {
         const struct schema_row *row = &schema->rows[i];
         bool shown =
-            (row->example && !row->example_alone) || row->kind == SCHEMA_LIST || row->kind == SCHEMA_ELEMENT;
+            !row->example_alone && (row->example || row->kind == SCHEMA_LIST || row->kind == SCHEMA_ELEMENT);
         if (!shown || is_alternative(schema, i))
             continue;
         example_row(row, i, element, arena);

@@ -3,6 +3,7 @@
 
 #include "grammar/ir_print_text.h"
 #include "grammar/ir_value.h"
+#include "grammar/ir_values.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 
@@ -55,7 +56,10 @@ static void put_value(struct json_writer *w, const struct schema_row *row, const
         print_json_text(w->out, str_from(row->words[*(const unsigned *)field]));
         break;
     case SCHEMA_TEXT:
-        print_json_text(w->out, *(const str *)field);
+        if (row->text == SCHEMA_TEXT_VALUES)
+            ir_values_json(w->out, *(const str *)field);
+        else
+            print_json_text(w->out, *(const str *)field);
         break;
     case SCHEMA_VECTOR:
     case SCHEMA_PAIR:

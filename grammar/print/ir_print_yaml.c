@@ -3,6 +3,7 @@
 
 #include "grammar/ir.h"
 #include "grammar/ir_print_text.h"
+#include "grammar/ir_values.h"
 #include "grammar/ir_walk.h"
 #include "grammar/print/ir_print_comment.h"
 #include "grammar/print/ir_print_row.h"
@@ -80,7 +81,10 @@ static void flow_value(struct yaml_writer *w, const struct schema_row *row, cons
                        struct strbuf *out) {
     switch (row->kind) {
     case SCHEMA_TEXT:
-        print_yaml_text(out, *(const str *)field, true);
+        if (row->text == SCHEMA_TEXT_VALUES)
+            ir_values_yaml(out, *(const str *)field);
+        else
+            print_yaml_text(out, *(const str *)field, true);
         break;
     case SCHEMA_VECTOR:
     case SCHEMA_PAIR:
@@ -285,7 +289,7 @@ static void block_row(struct yaml_writer *w, const struct schema_row *row, const
         print_yaml_literal(w->out, *(const str *)field, below);
     } else {
         strbuf_char(w->out, ' ');
-        if (row->kind == SCHEMA_TEXT)
+        if (row->kind == SCHEMA_TEXT && row->text != SCHEMA_TEXT_VALUES)
             print_yaml_text(w->out, *(const str *)field, false);
         else
             flow_row(w, row, element, w->out);

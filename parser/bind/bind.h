@@ -262,6 +262,9 @@ void bind_help_shape(struct bind_context *context, struct bind_subject subject, 
 bool bind_help_numbers(struct bind_context *context, struct bind_subject subject, tree_index node);
 bool bind_no_value(struct bind_context *context, struct bind_subject subject, tree_index node);
 
+// bind_values.c: text of SCHEMA_TEXT_VALUES. false: reported or known.
+bool bind_values(struct bind_context *context, struct bind_subject subject, tree_index node, str *out);
+
 // bind_color.c
 // A colour from text: #rrggbb, or one number.
 bool bind_color_text(struct bind_context *context, struct bind_subject subject, tree_index node,

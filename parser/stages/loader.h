@@ -63,6 +63,11 @@ void merge_compact(struct loader *loader, struct ir_scene *scene);
 // Applies the --set options, in order.
 void override_apply(struct loader *loader, struct ir_scene *scene);
 
+// animate.c
+// Where the animation names a frame, the scene gets its values in that frame, and has no animation then. Else
+// all frames are checked, and nothing changes.
+void animate_scene(struct loader *loader, struct ir_scene *scene);
+
 // names.c
 // Names are unique; references get their index.
 void names_resolve(struct loader *loader, struct ir_scene *scene);
@@ -70,5 +75,7 @@ void names_resolve(struct loader *loader, struct ir_scene *scene);
 // validate.c
 // The rules that a table cannot say.
 void validate_scene(struct loader *loader, const struct ir_scene *scene);
+// The same, and what is in loader->scratch stays.
+void validate_elements(struct loader *loader, const struct ir_scene *scene);
 
 #endif

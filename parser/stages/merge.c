@@ -86,14 +86,20 @@ static void take_row(const struct merging *merging, const struct schema_element 
         ir_origin_add_row(origin, head->origin, *places);
 }
 
+static void join_rows(const struct merging *merging, const struct schema_row *row, void *into, void *from);
+
 static void merge_element(const struct merging *merging, const struct schema_element *schema, void *into,
                           const void *from) {
     const struct ir_head *other = from;
     void *copy = clone(merging, schema, from);
     merge_own_places(&merging->loader->output->origin, into, other);
     for (uint32_t i = 0; i < schema->row_count; i++)
-        if ((other->written | other->poisoned) & bind_bit(i))
+        if ((other->written | other->poisoned) & bind_bit(i)) {
+            if (schema->rows[i].kind == SCHEMA_LIST)
+                join_rows(merging, &schema->rows[i], schema_field(&schema->rows[i], into),
+                          schema_field(&schema->rows[i], copy));
             take_row(merging, schema, into, copy, i);
+        }
 }
 
 // The entry that is there once, whichever file writes it; NULL if there is none.
@@ -126,6 +132,15 @@ static void join_lists(const struct merging *merging, const struct schema_row *r
             bind_list_push(merging->loader->input->arena, into, clone(merging, row->child, item),
                            row->child->size);
     }
+}
+
+// A list inside an element that is there once, such as tracks: those of `from`, which is the later file's and
+// a copy, become all of them.
+static void join_rows(const struct merging *merging, const struct schema_row *row, void *into, void *from) {
+    struct arena *arena = merging->loader->input->arena;
+    for (uint32_t i = 0; i < bind_list_count(from); i++)
+        bind_list_push(arena, into, bind_list_item(from, i, row->child->size), row->child->size);
+    memcpy(from, into, row->size);
 }
 
 static void merge_scene_row(const struct merging *merging, struct ir_scene *from, uint32_t row) {
@@ -167,8 +182,15 @@ static struct ir_scene *take_only_file(struct loader *loader, uint32_t include_r
     return scene;
 }
 
+// A frame of an animation is written over the values of the file.
+static bool takes_frame(const struct ir_scene *scene) {
+    const uint32_t row = (uint32_t)schema_find_row(&SCHEMA_ANIMATION, STR("frame"));
+    return (scene->animation.head.written & bind_bit(row)) != 0;
+}
+
 struct ir_scene *merge_files(struct loader *loader) {
-    if (loader->order.count == 1 && loader->input->set_count == 0)
+    if (loader->order.count == 1 && loader->input->set_count == 0 &&
+        !takes_frame(loader->files.items[0].scene))
         return take_only_file(loader, (uint32_t)schema_find_row(&SCHEMA_SCENE, STR("include")));
     struct ir_origin *origin = &loader->output->origin;
     struct ir_scene *scene = ARENA_NEW(loader->input->arena, struct ir_scene);

@@ -12,8 +12,7 @@ static struct ir_origin *origin_of(const struct override *o) {
     return &o->loader->output->origin;
 }
 
-// The element and all that contain it count as written, with places of their own in the option.
-static void mark_written(struct override *o, struct bind_frame *frame) {
+void override_mark(struct override *o, struct bind_frame *frame) {
     struct ir_head *head = bind_head(frame);
     merge_own_places(origin_of(o), head, head);
     if (origin_of(o)->elements.items[head->origin].at.source == SOURCE_DEFAULT)
@@ -23,7 +22,7 @@ static void mark_written(struct override *o, struct bind_frame *frame) {
     struct bind_frame *parent = (struct bind_frame *)frame->parent;
     uint32_t row = (uint32_t)(frame->via - parent->schema->rows);
     bool was = (bind_head(parent)->written & bind_bit(row)) != 0;
-    mark_written(o, parent);
+    override_mark(o, parent);
     bind_head(parent)->written |= bind_bit(row);
     if (!was)
         ir_origin_add_row(origin_of(o), bind_head(parent)->origin,
@@ -105,7 +104,7 @@ static void remove_target(struct override *o, const struct override_target *targ
         diag_help(o->loader->input->sink, "set it to a value, or remove all of '%s'", row->name);
         return;
     }
-    mark_written(o, frame);
+    override_mark(o, frame);
     if (target->kind == OVERRIDE_ROW) {
         remove_row(o, frame, target->row);
         return;
@@ -221,7 +220,7 @@ static void set_target(struct override *o, const struct override_target *target)
     if (tree.root == 0)
         return;
     o->context.tree = &tree;
-    mark_written(o, target->frame);
+    override_mark(o, target->frame);
     if (target->kind == OVERRIDE_ROW)
         set_row(o, target->frame, target->row);
     else if (target->kind == OVERRIDE_ENTRY)

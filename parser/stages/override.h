@@ -16,6 +16,7 @@ struct override_step {
     enum override_step_kind kind;
     str text;
     uint32_t index;
+    size_t begin, end; // in the path's text
     span at;
 };
 
@@ -29,6 +30,8 @@ struct override {
     struct bind_context context;
     uint32_t source; // the option's text
     str text;
+    bool is_track;        // the path is a track's, which has no '=': findings are about that
+    span track;           // its text in the file
     uint32_t value_begin; // after '='
     span path;            // all of it
     struct override_step steps[OVERRIDE_STEPS_MAX];
@@ -58,6 +61,14 @@ enum {
 // override_path.c
 // Splits the option; false: reported (E219).
 bool override_parse(struct override *o);
+// Splits a path without a value. false: reported.
+bool override_parse_path(struct override *o);
+// What a finding about the path is: the code, or that of tracks.
+enum diag_code override_code(const struct override *o, enum diag_code code);
+
+// override.c
+// The element and all that contain it count as written, with places of their own at the path.
+void override_mark(struct override *o, struct bind_frame *frame);
 
 // override_walk.c
 // Follows the steps; false: reported (E220, E221).

@@ -5,14 +5,35 @@
 
 #include <string.h>
 
+// A track's text may be written otherwise than it reads, with quotes or references: then all of it is shown.
 static span at(const struct override *o, size_t begin, size_t end) {
-    return (span){o->source, (uint32_t)begin, (uint32_t)end};
+    if (!o->is_track)
+        return (span){o->source, (uint32_t)begin, (uint32_t)end};
+    str written = source_text(o->loader->input->sources, o->track);
+    uint32_t skipped = 0;
+    if (written.len == o->text.len + 2 && (written.ptr[0] == '"' || written.ptr[0] == '\'')) {
+        written = str_slice(written, 1, written.len - 1);
+        skipped = 1;
+    }
+    if (!str_equal(written, o->text))
+        return o->track;
+    const uint32_t first = o->track.begin + skipped;
+    const size_t last = end < o->text.len ? end : o->text.len;
+    return (span){o->track.source, first + (uint32_t)begin, first + (uint32_t)(last > begin ? last : begin)};
+}
+
+enum diag_code override_code(const struct override *o, enum diag_code code) {
+    return o->is_track ? DIAG_TRACK_TARGET : code;
 }
 
 static bool syntax(struct override *o, span where, const char *what) {
     struct diag_sink *sink = o->loader->input->sink;
-    diag_add(sink, DIAG_SET_SYNTAX, where, "%s", what);
-    diag_help(sink, "the form is PATH=VALUE, for example image.width=640 or lights[0].intensity=2");
+    diag_add(sink, override_code(o, DIAG_SET_SYNTAX), where, "%s", what);
+    if (o->is_track)
+        diag_help(sink,
+                  "the form is that of --set, for example camera.position or models[ball].translation.y");
+    else
+        diag_help(sink, "the form is PATH=VALUE, for example image.width=640 or lights[0].intensity=2");
     return false;
 }
 
@@ -43,12 +64,17 @@ static bool add_key(struct override *o, size_t begin, size_t end) {
         return syntax(o, at(o, begin, end + 1), "a key is missing here");
     return add_step(o, (struct override_step){.kind = OVERRIDE_KEY,
                                               .text = str_slice(o->text, begin, end),
+                                              .begin = begin,
+                                              .end = end,
                                               .at = at(o, begin, end)});
 }
 
 static bool add_bracket(struct override *o, size_t begin, size_t end) {
-    struct override_step step = {
-        .kind = OVERRIDE_NAME, .text = str_slice(o->text, begin, end), .at = at(o, begin - 1, end + 1)};
+    struct override_step step = {.kind = OVERRIDE_NAME,
+                                 .text = str_slice(o->text, begin, end),
+                                 .begin = begin - 1,
+                                 .end = end + 1,
+                                 .at = at(o, begin - 1, end + 1)};
     int64_t index;
     if (begin == end)
         return syntax(o, step.at, "a number or name is missing here");
@@ -105,4 +131,10 @@ bool override_parse(struct override *o) {
         end--; // "radius = 2"
     o->path = at(o, 0, end);
     return parse_steps(o, end);
+}
+
+bool override_parse_path(struct override *o) {
+    o->path = at(o, 0, o->text.len);
+    o->value_begin = (uint32_t)o->text.len;
+    return parse_steps(o, o->text.len);
 }

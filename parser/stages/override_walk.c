@@ -15,7 +15,7 @@ static struct diag_sink *sink(const struct override *o) {
 
 // How the row is reached: the path as far as it has been followed.
 static str path_before(const struct override *o, uint32_t step) {
-    return step == 0 ? STR("") : str_slice(o->text, 0, o->steps[step - 1].at.end);
+    return step == 0 ? STR("") : str_slice(o->text, 0, o->steps[step - 1].end);
 }
 
 static str quoted_text(const struct override *o, str text) {
@@ -51,7 +51,7 @@ static bool unknown_key(struct override *o, const struct bind_frame *frame,
         if (row->single)
             mend_offer(&search, row->name, (int)i);
     }
-    diag_add(sink(o), DIAG_SET_PATH, step->at, "%.*s has no '%.*s'",
+    diag_add(sink(o), override_code(o, DIAG_SET_PATH), step->at, "%.*s has no '%.*s'",
              STR_ARG(say_subject(scratch(o), bind_subject(frame, NULL))),
              STR_ARG(quoted_text(o, step->text)));
     bool misspelt = search.best && mend_is_safe(&search);
@@ -73,7 +73,8 @@ static bool unknown_key(struct override *o, const struct bind_frame *frame,
 
 static bool unknown_index(struct override *o, const struct schema_row *row, const struct override_step *step,
                           uint32_t count) {
-    diag_add(sink(o), DIAG_SET_PATH, step->at, "there is no '%s[%u]'", schema_yaml_key(row), step->index);
+    diag_add(sink(o), override_code(o, DIAG_SET_PATH), step->at, "there is no '%s[%u]'", schema_yaml_key(row),
+             step->index);
     if (count == 0)
         diag_help(sink(o), "the scene has no %s", schema_yaml_key(row));
     else
@@ -102,7 +103,7 @@ static bool unknown_name(struct override *o, const struct schema_row *row, void 
             names = arena_format(scratch(o), "%.*s%s%.*s", STR_ARG(names), names.len ? ", " : "",
                                  STR_ARG(quoted_text(o, other)));
     }
-    diag_add(sink(o), DIAG_SET_PATH, step->at, "there is no %s '%.*s'", row->child->name,
+    diag_add(sink(o), override_code(o, DIAG_SET_PATH), step->at, "there is no %s '%.*s'", row->child->name,
              STR_ARG(quoted_text(o, name)));
     if (search.best)
         diag_help(sink(o), "did you mean '%s'?", search.best);
@@ -117,15 +118,21 @@ static bool unknown_name(struct override *o, const struct schema_row *row, void 
 static bool ends_here(struct override *o, const struct bind_frame *frame, const struct schema_row *row,
                       const struct override_step *step) {
     struct bind_subject subject = bind_subject(frame, row);
-    diag_add(sink(o), DIAG_SET_PATH, step->at, "%.*s is a single value; there is nothing below it",
-             STR_ARG(say_subject(scratch(o), subject)));
+    diag_add(sink(o), override_code(o, DIAG_SET_PATH), step->at,
+             "%.*s is a single value; there is nothing below it", STR_ARG(say_subject(scratch(o), subject)));
     return false;
 }
 
 static bool not_written(struct override *o, const struct bind_frame *frame, const struct schema_row *row,
                         uint32_t step) {
+    str subject = say_subject(scratch(o), bind_subject(frame, row));
+    if (o->is_track) {
+        diag_add(sink(o), DIAG_TRACK_TARGET, o->steps[step].at, "%.*s is not written", STR_ARG(subject));
+        diag_help(sink(o), "write it where it belongs, so that a picture without frames has it too");
+        return false;
+    }
     diag_add(sink(o), DIAG_SET_PATH, o->steps[step].at, "%.*s is not written; it can only be set as a whole",
-             STR_ARG(say_subject(scratch(o), bind_subject(frame, row))));
+             STR_ARG(subject));
     str example = say_example(scratch(o), row, false);
     const char *colon = memchr(example.ptr, ':', example.len);
     str value = str_slice(example, (size_t)(colon - example.ptr) + 2, example.len);
@@ -159,17 +166,17 @@ static bool through_reference(struct override *o, const struct bind_frame *frame
                               uint32_t step) {
     const struct schema_row *home = &SCHEMA_SCENE.rows[bind_home_row(row->child)];
     str name = quoted_text(o, reference->name);
-    diag_add(sink(o), DIAG_SET_REFERENCE, o->steps[step - 1].at,
+    diag_add(sink(o), override_code(o, DIAG_SET_REFERENCE), o->steps[step - 1].at,
              "%.*s names the %s '%.*s'; a path cannot go through a name",
              STR_ARG(say_subject(scratch(o), bind_subject(frame, row))), row->child->name, STR_ARG(name));
     struct users users = {.o = o, .self = reference, .target = row->child};
     visit_references(&SCHEMA_SCENE, o->scene, note_user, &users);
     if (users.count > 3)
         diag_note(sink(o), SPAN_NONE, "and by %u more", users.count - 3);
-    str rest = str_slice(o->text, o->steps[step].at.begin, o->text.len);
+    str rest = str_slice(o->text, o->steps[step].begin, o->text.len);
     const char *point = o->steps[step].kind == OVERRIDE_KEY ? "." : "";
-    diag_help(sink(o), "to change it wherever it is used: --set %s.%.*s%s%.*s", schema_yaml_key(home),
-              STR_ARG(name), point, STR_ARG(quoted_text(o, rest)));
+    diag_help(sink(o), "to change it wherever it is used: %s%s.%.*s%s%.*s", o->is_track ? "" : "--set ",
+              schema_yaml_key(home), STR_ARG(name), point, STR_ARG(quoted_text(o, rest)));
     return false;
 }
 
@@ -202,7 +209,7 @@ static bool find_entry(struct override *o, struct override_target *target, uint3
     target->kind = OVERRIDE_ENTRY;
     target->name = row->many == SCHEMA_NAMED_MAP ? name : STR("");
     if (s->kind == OVERRIDE_KEY && row->many == SCHEMA_SEQUENCE) {
-        diag_add(sink(o), DIAG_SET_PATH, s->at,
+        diag_add(sink(o), override_code(o, DIAG_SET_PATH), s->at,
                  "'%s' is a list; its entries are counted from 0 or named in brackets", schema_yaml_key(row));
         if (str_equal(name, STR("0")))
             diag_help(sink(o), "write %s[0]", schema_yaml_key(row));
@@ -246,7 +253,7 @@ static bool find_component(struct override *o, struct override_target *target, u
     str list = STR("");
     for (uint32_t i = 0; names[i]; i++)
         list = arena_format(scratch(o), "%.*s%s%s", STR_ARG(list), i ? ", " : "", names[i]);
-    diag_add(sink(o), DIAG_SET_PATH, s->at, "%.*s has no '%.*s'; it has %.*s",
+    diag_add(sink(o), override_code(o, DIAG_SET_PATH), s->at, "%.*s has no '%.*s'; it has %.*s",
              STR_ARG(say_subject(scratch(o), bind_subject(target->frame, row))),
              STR_ARG(quoted_text(o, s->text)), STR_ARG(list));
     return false;
@@ -265,7 +272,7 @@ static bool step_into_value(struct override *o, struct override_target *target, 
     if (row->many != SCHEMA_FIXED || target->slot >= 0)
         return find_component(o, target, step);
     if (s->kind != OVERRIDE_INDEX || s->index >= row->fixed_count) {
-        diag_add(sink(o), DIAG_SET_PATH, s->at, "%.*s has the entries [0] to [%u]",
+        diag_add(sink(o), override_code(o, DIAG_SET_PATH), s->at, "%.*s has the entries [0] to [%u]",
                  STR_ARG(say_subject(scratch(o), bind_subject(target->frame, row))), row->fixed_count - 1);
         return false;
     }
@@ -352,8 +359,8 @@ bool override_walk(struct override *o, struct override_target *target) {
     }
     if (target->frame->schema->rows[target->row].child != &SCHEMA_INCLUDE)
         return true;
-    diag_add(sink(o), DIAG_SET_PATH, o->steps[0].at, "'%s' cannot be set: the files have already been read",
-             o->steps[0].text.ptr ? "include" : "");
+    diag_add(sink(o), override_code(o, DIAG_SET_PATH), o->steps[0].at,
+             "'%s' cannot be set: the files have already been read", o->steps[0].text.ptr ? "include" : "");
     diag_help(sink(o), "write a scene file that includes both");
     return false;
 }

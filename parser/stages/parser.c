@@ -23,6 +23,7 @@ static bool run(struct loader *loader, uint32_t main_source, bool alone) {
     start = clock_seconds();
     output->scene = merge_files(loader);
     override_apply(loader, output->scene);
+    animate_scene(loader, output->scene);
     names_resolve(loader, output->scene);
     merge_compact(loader, output->scene);
     validate_scene(loader, output->scene);

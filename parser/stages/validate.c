@@ -361,7 +361,7 @@ static void check_image(const struct rules *rules, const struct ir_image *image)
               "leave 'error' out: all pixels then have the same samples, and are rendered in bands");
 }
 
-void validate_scene(struct loader *loader, const struct ir_scene *scene) {
+void validate_elements(struct loader *loader, const struct ir_scene *scene) {
     struct rules rules = {loader->input->sink, &loader->output->origin, &loader->scratch};
     check_image(&rules, &scene->image);
     for (uint32_t i = 0; i < scene->cameras.count; i++)
@@ -375,5 +375,9 @@ void validate_scene(struct loader *loader, const struct ir_scene *scene) {
         check_rectangle(&rules, &scene->rectangles.items[i]);
     for (uint32_t i = 0; i < scene->models.count; i++)
         check_model(&rules, &scene->models.items[i]);
+}
+
+void validate_scene(struct loader *loader, const struct ir_scene *scene) {
+    validate_elements(loader, scene);
     arena_finish(&loader->scratch);
 }

@@ -39,6 +39,9 @@ static bool is_possible(const struct generator *g, const struct schema_row *row)
     // Of meshes that can be rendered the materials are known; none has parts.
     if (row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_FOREIGN_NAME && g->options->renderable)
         return row->key && g->options->mesh_materials.count > 0;
+    // A scene that takes a frame of its animation has none any more.
+    if (row->range == SCHEMA_RANGE_FRAME && !row->required)
+        return false;
     if (row->kind == SCHEMA_REFERENCE && !row->element)
         return count_named(g, row) > 0;
     if (row->kind == SCHEMA_LIST || row->kind == SCHEMA_ELEMENT)
@@ -62,9 +65,10 @@ static bool make_key(struct generator *g, const struct schema_row *row, struct i
     const struct generate_paths *known = &g->options->mesh_materials;
     bool foreign = key->text == SCHEMA_TEXT_FOREIGN_NAME;
     for (int attempt = 0; attempt < 20; attempt++) {
-        str name = foreign && g->options->renderable ? known->items[generate_below(g, known->count)]
-                   : foreign                         ? generate_foreign_name(g)
-                                                     : generate_name(g);
+        str name = key->text == SCHEMA_TEXT_TARGET     ? generate_target(g)
+                   : foreign && g->options->renderable ? known->items[generate_below(g, known->count)]
+                   : foreign                           ? generate_foreign_name(g)
+                                                       : generate_name(g);
         if (row->single && list.count == 0 && generate_chance(g, 60))
             name = str_from(row->single);
         bool taken = name.len == 0;
@@ -140,6 +144,10 @@ static str make_text(struct generator *g, const struct schema_row *row) {
         return STR("nothing"); // rules that mend the scene put a distance in its place
     case SCHEMA_TEXT_FOREIGN_NAME:
         return generate_foreign_name(g);
+    case SCHEMA_TEXT_TARGET:
+        return generate_target(g);
+    case SCHEMA_TEXT_VALUES:
+        return generate_moving(g);
     case SCHEMA_TEXT_PATH:
         return paths->items[generate_below(g, paths->count)];
     default:

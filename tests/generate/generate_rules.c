@@ -205,6 +205,23 @@ static void frame_light(struct ir_light *light) {
     }
 }
 
+// A track has keys, one after the other, or a value.
+static void mend_track(struct ir_track *track) {
+    const uint64_t value = UINT64_C(1) << schema_find_row(&SCHEMA_TRACK, STR("value"));
+    int32_t frame = 0;
+    for (uint32_t i = 0; i < track->keys.count; i++) {
+        frame += 1 + (track->keys.items[i].frame < 0 ? 0 : track->keys.items[i].frame % 5);
+        track->keys.items[i].frame = frame;
+    }
+    if (track->keys.count) {
+        track->value = (str){0};
+        track->head.written &= ~value;
+    } else {
+        track->value = track->value.len ? track->value : STR("0.5");
+        track->head.written |= value;
+    }
+}
+
 void generate_mend(struct generator *g, struct ir_scene *scene) {
     bool framed = g->options->renderable;
     mend_image(&scene->image);
@@ -215,6 +232,8 @@ void generate_mend(struct generator *g, struct ir_scene *scene) {
         scene->image.head.written |= UINT64_C(1) << schema_find_row(&SCHEMA_IMAGE, STR("height"));
         scene->head.written |= UINT64_C(1) << schema_find_row(&SCHEMA_SCENE, STR("image"));
     }
+    for (uint32_t i = 0; i < scene->animation.tracks.count; i++)
+        mend_track(&scene->animation.tracks.items[i]);
     for (uint32_t i = 0; i < scene->cameras.count; i++) {
         if (framed)
             frame_camera(g, &scene->cameras.items[i]);

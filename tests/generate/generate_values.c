@@ -39,7 +39,8 @@ static double moderate(struct generator *g, enum schema_range range) {
         [SCHEMA_RANGE_EXPONENT] = {1, 120},  [SCHEMA_RANGE_INDEX] = {1, 2},
         [SCHEMA_RANGE_PRIORITY] = {-3, 3},   [SCHEMA_RANGE_REPEAT] = {0.5, 4},
         [SCHEMA_RANGE_SHIFT] = {-1, 1},      [SCHEMA_RANGE_SIZE] = {0.2, 2},
-        [SCHEMA_RANGE_OPENING] = {1, 20},
+        [SCHEMA_RANGE_OPENING] = {1, 20},    [SCHEMA_RANGE_FRAMES] = {20, 100},
+        [SCHEMA_RANGE_FRAME] = {0, 20},      [SCHEMA_RANGE_RATE] = {1, 60},
     };
     double value = round(generate_between(g, bounds[range][0], bounds[range][1]) * 100) / 100;
     return range == SCHEMA_RANGE_SCALE && generate_chance(g, 20) ? -value : value;
@@ -175,6 +176,22 @@ static str compose(struct generator *g, bool lines) {
 
 str generate_foreign_name(struct generator *g) {
     return generate_chance(g, 50) ? generate_name(g) : compose(g, false);
+}
+
+// Values that every scene has, and that take what generate_moving makes.
+str generate_target(struct generator *g) {
+    static const char *const targets[] = {"background.rotation", "background.intensity", "ambient.intensity",
+                                          "trace.min_weight"};
+    return str_from(targets[generate_below(g, sizeof targets / sizeof *targets)]);
+}
+
+// One number, or an expression, near the middle of 0 and 1.
+str generate_moving(struct generator *g) {
+    static const char *const texts[] = {"0.5 + 0.1*sin(tau*time)", "mix(0.4, 0.6, 0.25)", "max(0.5,0.4)",
+                                        "0.5", "1/2"};
+    if (generate_chance(g, 40))
+        return str_from(texts[generate_below(g, sizeof texts / sizeof *texts)]);
+    return arena_format(g->arena, "0.4%u5", generate_below(g, 10));
 }
 
 str generate_text(struct generator *g) {

@@ -35,6 +35,8 @@ struct ir_color generate_color(struct generator *g, enum schema_range range);
 str generate_name(struct generator *g);
 // Any text but the empty one, of one line.
 str generate_foreign_name(struct generator *g);
+str generate_target(struct generator *g);
+str generate_moving(struct generator *g);
 // Any text that both spellings can hold; may be empty or of several lines.
 str generate_text(struct generator *g);
 

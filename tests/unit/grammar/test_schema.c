@@ -21,15 +21,17 @@ static const struct {
     const struct schema_element *schema;
     const char *structure;
 } structures[] = {
-    {&SCHEMA_SCENE, "ir_scene"},     {&SCHEMA_INCLUDE, "ir_include"},
-    {&SCHEMA_IMAGE, "ir_image"},     {&SCHEMA_TRACE, "ir_trace"},
-    {&SCHEMA_CAMERA, "ir_camera"},   {&SCHEMA_BACKGROUND, "ir_background"},
-    {&SCHEMA_LIGHT, "ir_light"},     {&SCHEMA_PANEL, "ir_panel"},
-    {&SCHEMA_AMBIENT, "ir_ambient"}, {&SCHEMA_MATERIAL, "ir_material"},
-    {&SCHEMA_PAINT, "ir_paint"},     {&SCHEMA_CHECKER, "ir_checker"},
-    {&SCHEMA_TEXTURE, "ir_texture"}, {&SCHEMA_HIGHLIGHT, "ir_highlight"},
-    {&SCHEMA_SPHERE, "ir_sphere"},   {&SCHEMA_RECTANGLE, "ir_rectangle"},
-    {&SCHEMA_MODEL, "ir_model"},     {&SCHEMA_MAP_ENTRY, "ir_map_entry"},
+    {&SCHEMA_SCENE, "ir_scene"},       {&SCHEMA_INCLUDE, "ir_include"},
+    {&SCHEMA_IMAGE, "ir_image"},       {&SCHEMA_TRACE, "ir_trace"},
+    {&SCHEMA_CAMERA, "ir_camera"},     {&SCHEMA_BACKGROUND, "ir_background"},
+    {&SCHEMA_LIGHT, "ir_light"},       {&SCHEMA_PANEL, "ir_panel"},
+    {&SCHEMA_AMBIENT, "ir_ambient"},   {&SCHEMA_MATERIAL, "ir_material"},
+    {&SCHEMA_PAINT, "ir_paint"},       {&SCHEMA_CHECKER, "ir_checker"},
+    {&SCHEMA_TEXTURE, "ir_texture"},   {&SCHEMA_HIGHLIGHT, "ir_highlight"},
+    {&SCHEMA_SPHERE, "ir_sphere"},     {&SCHEMA_RECTANGLE, "ir_rectangle"},
+    {&SCHEMA_MODEL, "ir_model"},       {&SCHEMA_MAP_ENTRY, "ir_map_entry"},
+    {&SCHEMA_TRACK, "ir_track"},       {&SCHEMA_ANIMATION, "ir_animation"},
+    {&SCHEMA_KEYFRAME, "ir_keyframe"},
 };
 
 #define EACH_ELEMENT(e) for (const struct schema_element *const *e = schema_elements; *e; e++)
@@ -366,7 +368,8 @@ static void check_row(const struct schema_element *schema, const struct schema_r
     if (row->key)
         assert_int_equal(row->kind, SCHEMA_TEXT);
     // Something always says what a value is where nothing is written.
-    bool may_lack = row->required || row->choice || row->kind == SCHEMA_TEXT || row->child;
+    bool may_lack = row->required || row->choice || row->kind == SCHEMA_TEXT || row->child ||
+                    row->range == SCHEMA_RANGE_FRAME; // without it nothing moves
     assert_true(row->standard || may_lack);
 }
 

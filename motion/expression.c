@@ -1,4 +1,4 @@
-#include "app/frames/expression.h"
+#include "motion/expression.h"
 
 #include "core/number.h"
 

@@ -5,8 +5,8 @@
 // Errors: a fault with its place in the text. An expression is `+ - * / % ^`, parentheses, numbers, the names
 // and functions that expression_names lists; angles are in radians. Its value depends on its text and the
 // frame alone. Ownership: none. Thread safety: pure.
-#ifndef GLINT_APP_FRAMES_EXPRESSION_H
-#define GLINT_APP_FRAMES_EXPRESSION_H
+#ifndef GLINT_MOTION_EXPRESSION_H
+#define GLINT_MOTION_EXPRESSION_H
 
 #include "core/strbuf.h"
 

@@ -1,5 +1,5 @@
 // Numbers that depend on the frame: values, and where what is wrong with an expression is.
-#include "app/frames/expression.h"
+#include "motion/expression.h"
 
 #include <math.h>
 #include <setjmp.h>

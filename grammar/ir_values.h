@@ -1,0 +1,27 @@
+// Text of one to four values, SCHEMA_TEXT_VALUES: "30", "0, 1, 6", "#c08050", "4*cos(tau*time), 1, 0". Commas
+// inside parentheses are of an expression.
+//
+// Thread safety: pure except for `out`.
+#ifndef GLINT_GRAMMAR_IR_VALUES_H
+#define GLINT_GRAMMAR_IR_VALUES_H
+
+#include "core/strbuf.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum {
+    IR_VALUES_MOST = 4
+};
+
+// The first value of *rest, without blanks around it, which is taken off. false: nothing is left. An empty
+// value between commas is one.
+bool ir_values_next(str *rest, str *value);
+uint32_t ir_values_count(str text);
+// Appends the text as it is kept: numbers in their shortest form, ", " between values.
+void ir_values_normal(struct strbuf *out, str text);
+// One value as it is, several as a list in brackets, for YAML's flow style and for JSON.
+void ir_values_yaml(struct strbuf *out, str text);
+void ir_values_json(struct strbuf *out, str text);
+
+#endif

@@ -1,0 +1,58 @@
+// How a file of the table writes rows and elements: the kind of a row follows from the C type of its field.
+// Private to grammar/schema*.c.
+#ifndef GLINT_GRAMMAR_SCHEMA_FIELD_H
+#define GLINT_GRAMMAR_SCHEMA_FIELD_H
+
+#include "grammar/ir.h"
+#include "grammar/schema.h"
+
+#include <stddef.h>
+
+// clang-format off
+#define KIND_OF(field)                                                                                       \
+    _Generic((field),                                                                                        \
+        bool: SCHEMA_BOOLEAN,                                                                                \
+        int32_t: SCHEMA_INTEGER,                                                                             \
+        double: SCHEMA_NUMBER,                                                                               \
+        unsigned: SCHEMA_WORD,                                                                               \
+        str: SCHEMA_TEXT,                                                                                    \
+        vec3: SCHEMA_VECTOR,                                                                                 \
+        struct ir_pair: SCHEMA_PAIR,                                                                         \
+        struct ir_color: SCHEMA_COLOR,                                                                       \
+        struct ir_weights: SCHEMA_WEIGHTS,                                                                   \
+        struct ir_material_ref: SCHEMA_REFERENCE,                                                            \
+        struct ir_image: SCHEMA_ELEMENT,                                                                     \
+        struct ir_trace: SCHEMA_ELEMENT,                                                                     \
+        struct ir_background: SCHEMA_ELEMENT,                                                                \
+        struct ir_ambient: SCHEMA_ELEMENT,                                                                   \
+        struct ir_panel: SCHEMA_ELEMENT,                                                                     \
+        struct ir_paint: SCHEMA_ELEMENT,                                                                     \
+        struct ir_checker: SCHEMA_ELEMENT,                                                                   \
+        struct ir_texture: SCHEMA_ELEMENT,                                                                   \
+        struct ir_highlight: SCHEMA_ELEMENT,                                                                 \
+        struct ir_animation: SCHEMA_ELEMENT,                                                                 \
+        struct ir_includes: SCHEMA_LIST,                                                                     \
+        struct ir_cameras: SCHEMA_LIST,                                                                      \
+        struct ir_lights: SCHEMA_LIST,                                                                       \
+        struct ir_materials: SCHEMA_LIST,                                                                    \
+        struct ir_spheres: SCHEMA_LIST,                                                                      \
+        struct ir_rectangles: SCHEMA_LIST,                                                                   \
+        struct ir_models: SCHEMA_LIST,                                                                       \
+        struct ir_map_entries: SCHEMA_LIST,                                                                  \
+        struct ir_tracks: SCHEMA_LIST,                                                                       \
+        struct ir_keyframes: SCHEMA_LIST)
+// clang-format on
+
+#define FIELD(type, member)                                                                                  \
+    .kind = KIND_OF(((struct type *)0)->member), .offset = offsetof(struct type, member),                    \
+    .size = sizeof(((struct type *)0)->member)
+
+#define FIELD_PAIR(type, member)                                                                             \
+    .kind = KIND_OF(((struct type *)0)->member[0]), .offset = offsetof(struct type, member),                 \
+    .size = sizeof(((struct type *)0)->member[0]), .many = SCHEMA_FIXED, .fixed_count = 2
+
+#define ELEMENT(snake, pascal, type, table, sentence)                                                        \
+    .name = snake, .element = pascal, .doc = sentence, .rows = table,                                        \
+    .row_count = sizeof(table) / sizeof((table)[0]), .size = sizeof(struct type)
+
+#endif

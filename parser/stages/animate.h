@@ -1,0 +1,47 @@
+// The tracks of a scene's animation: what each moves, and its value in a frame. Private to parser/stages.
+//
+// Ownership: all lies in the scene's arena, frames in the loader's scratch. Thread safety: one thread.
+#ifndef GLINT_PARSER_STAGES_ANIMATE_H
+#define GLINT_PARSER_STAGES_ANIMATE_H
+
+#include "grammar/ir.h"
+#include "motion/curve.h"
+#include "motion/expression.h"
+#include "parser/stages/override.h"
+
+// One track, found good so far.
+struct moving {
+    const struct ir_track *track;
+    struct override *path;
+    struct bind_frame *frame;     // the element whose row moves
+    const struct schema_row *row; // a number, vector, pair, colour or weights
+    uint32_t row_number;
+    struct bind_subject subject; // for messages
+    double *field;               // in the scene: `width` numbers side by side
+    struct ir_color *color;      // the field is all of this colour; NULL: it is not
+    uint32_t width;
+    bool fills;         // one number stands for all
+    struct curve curve; // of keys; count 0: the track's value is an expression
+};
+
+struct motion {
+    struct loader *loader;
+    struct ir_scene *scene;
+    const struct ir_animation *animation;
+    struct moving *items;
+    uint32_t count;
+};
+
+// animate_tracks.c: finds what the tracks move, and reads their keys. Tracks with mistakes are reported and
+// left out.
+void motion_find(struct motion *motion);
+// The value in a frame, by keys or expression. false: the expression has none (reported).
+bool moving_value(const struct motion *motion, const struct moving *m, int32_t frame,
+                  double out[CURVE_WIDTH_MOST]);
+// The key, or the expression, that a value in a frame comes from.
+span moving_place(const struct motion *motion, const struct moving *m, int32_t frame);
+// Whether the row takes the values; else it is reported, with the frame.
+bool moving_fits(const struct motion *motion, const struct moving *m, int32_t frame,
+                 const double value[CURVE_WIDTH_MOST]);
+
+#endif

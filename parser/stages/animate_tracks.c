@@ -1,0 +1,365 @@
+// Tracks as curves over numbers of the scene.
+#include "parser/stages/animate.h"
+
+#include "core/heap.h"
+#include "core/number.h"
+#include "core/srgb.h"
+#include "grammar/ir_values.h"
+#include "parser/bind/say.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static struct diag_sink *sink(const struct motion *motion) {
+    return motion->loader->input->sink;
+}
+
+static const struct ir_origin *origin(const struct motion *motion) {
+    return &motion->loader->output->origin;
+}
+
+static struct arena *scratch(const struct motion *motion) {
+    return &motion->loader->scratch;
+}
+
+static span target_place(const struct motion *motion, const struct ir_track *track) {
+    const uint32_t row = (uint32_t)schema_key_row(&SCHEMA_TRACK);
+    const struct ir_row_origin *place = ir_origin_row(origin(motion), &track->head, row);
+    return place ? place->value : ir_place_label(origin(motion), &track->head);
+}
+
+// ---- what a track moves
+
+static bool cannot_move(const struct motion *motion, const struct moving *m, const char *why) {
+    diag_add(sink(motion), DIAG_TRACK_TARGET, m->path->path, "%.*s %s",
+             STR_ARG(say_subject(scratch(motion), m->subject)), why);
+    return false;
+}
+
+static bool is_in_use(const struct bind_frame *frame, const struct schema_row *row) {
+    unsigned tag;
+    if (row->choice == 0)
+        return true;
+    memcpy(&tag, (const char *)frame->memory + frame->schema->choices[row->choice - 1].tag_offset,
+           sizeof tag);
+    return tag == row->alternative;
+}
+
+// An alternative that the scene does not use would replace what it says.
+static bool not_in_use(const struct motion *motion, const struct moving *m) {
+    const char *other = NULL;
+    for (uint32_t i = 0; i < m->frame->schema->row_count; i++) {
+        const struct schema_row *row = &m->frame->schema->rows[i];
+        if (row->choice == m->row->choice && row != m->row && is_in_use(m->frame, row))
+            other = schema_yaml_key(row);
+    }
+    cannot_move(motion, m, "is not what the scene uses");
+    if (other)
+        diag_help(sink(motion), "it uses '%s': move that, or write '%s' in its place", other, m->row->name);
+    return false;
+}
+
+// A colour that is an element, such as diffuse_color, stands for its short row.
+static void enter_short(const struct motion *motion, struct moving *m) {
+    const int bare = m->row->kind == SCHEMA_ELEMENT ? schema_short_row(m->row->child) : -1;
+    if (bare < 0)
+        return;
+    struct bind_frame *child = ARENA_NEW(scratch(motion), struct bind_frame);
+    *child = (struct bind_frame){.parent = m->frame,
+                                 .schema = m->row->child,
+                                 .via = m->row,
+                                 .memory = schema_field(m->row, m->frame->memory),
+                                 .label = m->path->path,
+                                 .bare = true};
+    m->frame = child;
+    m->row_number = (uint32_t)bare;
+    m->row = &child->schema->rows[bare];
+    m->subject = bind_subject(child, m->row);
+}
+
+static bool take_whole(const struct motion *motion, struct moving *m, char *field) {
+    const char *const *names = schema_components(m->row->kind);
+    if (m->row->kind != SCHEMA_NUMBER && !names[0])
+        return cannot_move(motion, m,
+                           m->row->kind == SCHEMA_LIST || m->row->kind == SCHEMA_ELEMENT
+                               ? "holds several values: move one of them"
+                               : "is not a number that can move; --sweep renders with other values");
+    m->width = names[0] ? 0 : 1;
+    while (names[0] && names[m->width])
+        m->width++;
+    m->color = m->row->kind == SCHEMA_COLOR ? (struct ir_color *)(void *)field : NULL;
+    m->fills = m->row->fill || m->color;
+    m->field = (double *)(void *)field;
+    return true;
+}
+
+static bool take_target(const struct motion *motion, struct moving *m, const struct override_target *target) {
+    m->frame = target->frame;
+    m->row_number = target->row;
+    m->row = &m->frame->schema->rows[target->row];
+    m->subject = bind_subject(m->frame, m->row);
+    if (target->kind == OVERRIDE_ENTRY)
+        return cannot_move(motion, m, "holds several values: move one of them");
+    for (const struct bind_frame *f = m->frame; f; f = f->parent)
+        if (f->schema == &SCHEMA_ANIMATION || m->row->child == &SCHEMA_ANIMATION)
+            return cannot_move(motion, m, "is of the animation, which cannot move itself");
+    enter_short(motion, m);
+    if (!is_in_use(m->frame, m->row))
+        return not_in_use(motion, m);
+    if (bind_head(m->frame)->poisoned & bind_bit(m->row_number))
+        return false; // reported
+    char *field = schema_field(m->row, m->frame->memory);
+    if (target->slot > 0)
+        field += (size_t)target->slot * m->row->size;
+    m->subject.index = target->slot;
+    if (target->kind == OVERRIDE_ROW || target->component == OVERRIDE_WHOLE_SLOT)
+        return take_whole(motion, m, field);
+    if (m->row->kind == SCHEMA_COLOR && ((struct ir_color *)(void *)field)->is_hex)
+        return cannot_move(motion, m, "is written as #rrggbb, which has no components; move all of it");
+    m->subject.component = schema_components(m->row->kind)[target->component];
+    m->field = (double *)(void *)field + target->component;
+    m->width = 1;
+    return true;
+}
+
+// ---- values
+
+static bool wrong_count(const struct motion *motion, const struct moving *m, span at, uint32_t count) {
+    diag_add(sink(motion), DIAG_TRACK_VALUE, at, "%u number%s for %.*s; it must be %.*s", count,
+             count == 1 ? "" : "s", STR_ARG(say_subject(scratch(motion), m->subject)),
+             STR_ARG(say_expected_of(scratch(motion), m->subject)));
+    return false;
+}
+
+// The place of a part of the text, where the file has it literally.
+static span part_of(const struct motion *motion, span at, str part, size_t begin, size_t end) {
+    const str written = source_text(motion->loader->input->sources, at);
+    for (size_t i = 0; part.len && i + part.len <= written.len; i++)
+        if (memcmp(written.ptr + i, part.ptr, part.len) == 0)
+            return (span){at.source, at.begin + (uint32_t)(i + begin),
+                          at.begin + (uint32_t)(i + (end < part.len ? end : part.len))};
+    return at;
+}
+
+static bool read_hex(str text, double rgb[3]) {
+    if (text.len != 7 || text.ptr[0] != '#')
+        return false;
+    for (size_t i = 1; i < 7; i++)
+        if (!memchr("0123456789abcdefABCDEF", text.ptr[i], 22))
+            return false;
+    char digits[8] = {0};
+    memcpy(digits, text.ptr + 1, 6);
+    const unsigned long hex = strtoul(digits, NULL, 16);
+    for (int i = 0; i < 3; i++)
+        rgb[i] = (double)(hex >> (16 - 8 * i) & 255) / 255;
+    return true;
+}
+
+static bool bad_value(const struct motion *motion, span at, str text, const struct expression_fault *fault,
+                      int32_t frame) {
+    struct strbuf names;
+    const span place = part_of(motion, at, text, fault->begin, fault->end);
+    if (frame > 0)
+        diag_add(sink(motion), DIAG_TRACK_VALUE, place, "%s, in frame %d", fault->what, (int)frame);
+    else
+        diag_add(sink(motion), DIAG_TRACK_VALUE, place, "%s", fault->what);
+    strbuf_init(&names);
+    expression_names(&names);
+    diag_help(sink(motion), "an expression has numbers, + - * / %% ^ and %.*s", STR_ARG(strbuf_view(&names)));
+    strbuf_finish(&names);
+    return false;
+}
+
+// Text of one or several values in a frame.
+static bool evaluate(const struct motion *motion, const struct moving *m, str text, span at, int32_t frame,
+                     double out[CURVE_WIDTH_MOST]) {
+    const struct expression_at when = {.frame = frame, .time = frame / motion->animation->rate};
+    uint32_t count = 0;
+    str value;
+    if (m->color && read_hex(text, out)) {
+        for (int i = 0; i < 3 && motion->scene->image.transfer == IR_TRANSFER_SRGB; i++)
+            out[i] = srgb_decode(out[i]);
+        return true;
+    }
+    for (str rest = text; ir_values_next(&rest, &value) && count < CURVE_WIDTH_MOST; count++) {
+        struct expression_fault fault;
+        if (!expression_value(value, &when, &out[count], &fault))
+            return bad_value(motion, at, value, &fault, frame);
+    }
+    if (count == 1 && m->fills)
+        for (; count < m->width; count++)
+            out[count] = out[0];
+    return count == m->width || wrong_count(motion, m, at, count);
+}
+
+static span value_place(const struct motion *motion, const struct ir_track *track) {
+    return ir_place_value(origin(motion), &track->head, &SCHEMA_TRACK, "value");
+}
+
+static span key_place(const struct motion *motion, const struct ir_keyframe *key, const char *row) {
+    return ir_place_value(origin(motion), &key->head, &SCHEMA_KEYFRAME, row);
+}
+
+span moving_place(const struct motion *motion, const struct moving *m, int32_t frame) {
+    if (m->curve.count == 0)
+        return value_place(motion, m->track);
+    return key_place(motion, &m->track->keys.items[curve_key(&m->curve, frame)], "value");
+}
+
+bool moving_value(const struct motion *motion, const struct moving *m, int32_t frame,
+                  double out[CURVE_WIDTH_MOST]) {
+    if (m->curve.count == 0)
+        return evaluate(motion, m, m->track->value, value_place(motion, m->track), frame, out);
+    curve_at(&m->curve, frame, out);
+    return true;
+}
+
+bool moving_fits(const struct motion *motion, const struct moving *m, int32_t frame,
+                 const double value[CURVE_WIDTH_MOST]) {
+    char digits[NUMBER_FORMAT_MAX];
+    for (uint32_t i = 0; i < m->width; i++) {
+        if (schema_in_range(m->row->range, value[i]))
+            continue;
+        struct bind_subject subject = m->subject;
+        if (m->width > 1)
+            subject.component = schema_components(m->row->kind)[i];
+        const size_t length = number_format(value[i], digits);
+        diag_add(sink(motion), DIAG_TRACK_RANGE, moving_place(motion, m, frame),
+                 "%.*s is %.*s in frame %d; it must be %s%s", STR_ARG(say_subject(scratch(motion), subject)),
+                 (int)length, digits, (int)frame, schema_range_info(m->row->range)->text, say_unit(m->row));
+        if (m->curve.count && m->curve.way == CURVE_SMOOTH)
+            diag_help(sink(motion), "a smooth curve goes beyond its keys; 'ease' and 'linear' do not");
+        return false;
+    }
+    return true;
+}
+
+// ---- keys
+
+static bool are_in_order(const struct motion *motion, const struct ir_track *track) {
+    for (uint32_t i = 1; i < track->keys.count; i++) {
+        const struct ir_keyframe *before = &track->keys.items[i - 1], *key = &track->keys.items[i];
+        if (key->frame > before->frame)
+            continue;
+        diag_add(sink(motion), DIAG_KEY_ORDER, key_place(motion, key, "frame"),
+                 key->frame == before->frame ? "two keys are at frame %d"
+                                             : "the key at frame %d is out of order",
+                 (int)key->frame);
+        diag_note(sink(motion), key_place(motion, before, "frame"), "the key before it is at frame %d",
+                  (int)before->frame);
+        diag_help(sink(motion), "write keys in the order of their frames, one at each");
+        return false;
+    }
+    return true;
+}
+
+static void look_beyond(const struct motion *motion, const struct ir_track *track) {
+    for (uint32_t i = 0; i < track->keys.count; i++) {
+        const struct ir_keyframe *key = &track->keys.items[i];
+        if (key->frame <= motion->animation->frames)
+            continue;
+        diag_add(sink(motion), DIAG_KEY_BEYOND, key_place(motion, key, "frame"),
+                 "the key at frame %d is after the end: the animation has %d frames, 0 to %d",
+                 (int)key->frame, (int)motion->animation->frames, (int)motion->animation->frames - 1);
+        return;
+    }
+}
+
+static bool take_keys(const struct motion *motion, struct moving *m) {
+    static const enum curve_way ways[] = {[IR_INTERPOLATION_LINEAR] = CURVE_LINEAR,
+                                          [IR_INTERPOLATION_SMOOTH] = CURVE_SMOOTH,
+                                          [IR_INTERPOLATION_EASE] = CURVE_EASE,
+                                          [IR_INTERPOLATION_STEP] = CURVE_STEP};
+    static const enum curve_loop loops[] = {
+        [IR_LOOP_NONE] = CURVE_ONCE, [IR_LOOP_REPEAT] = CURVE_REPEAT, [IR_LOOP_MIRROR] = CURVE_MIRROR};
+    const struct ir_keyframes *keys = &m->track->keys;
+    struct arena *arena = motion->loader->input->arena;
+    double *frames = ARENA_ARRAY(arena, double, keys->count);
+    double *values = ARENA_ARRAY(arena, double, heap_times(keys->count, m->width));
+    bool good = true;
+    for (uint32_t i = 0; i < keys->count; i++) {
+        const struct ir_keyframe *key = &keys->items[i];
+        double value[CURVE_WIDTH_MOST];
+        if (key->head.poisoned)
+            return false;
+        frames[i] = key->frame;
+        good = evaluate(motion, m, key->value, key_place(motion, key, "value"), key->frame, value) && good;
+        for (uint32_t k = 0; k < m->width; k++)
+            values[(size_t)i * m->width + k] = good ? value[k] : 0;
+    }
+    m->curve = (struct curve){
+        frames, values, keys->count, m->width, ways[m->track->interpolation], loops[m->track->loop]};
+    return good && are_in_order(motion, m->track);
+}
+
+static bool has_one_form(const struct motion *motion, const struct ir_track *track) {
+    const bool has_value = track->value.len > 0, has_keys = track->keys.count > 0;
+    if (track->head.poisoned)
+        return false;
+    if (has_value && has_keys) {
+        diag_add(sink(motion), DIAG_EXCLUSIVE, value_place(motion, track),
+                 "a track has either keys or a value, not both");
+        return false;
+    }
+    if (has_value || has_keys)
+        return true;
+    diag_add(sink(motion), DIAG_CHOICE_MISSING, ir_place_label(origin(motion), &track->head),
+             "a track needs keys, or a value");
+    diag_help(sink(motion),
+              "for example keys: [{frame: 0, value: 0}, {frame: 50, value: 1}], or a value such "
+              "as sin(tau*time)");
+    return false;
+}
+
+static bool read_track(const struct motion *motion, const struct ir_track *track, struct moving *m) {
+    struct loader *loader = motion->loader;
+    struct override *path = ARENA_NEW(scratch(motion), struct override);
+    struct override_target target;
+    *path =
+        (struct override){.loader = loader, .scene = motion->scene, .text = track->target, .is_track = true};
+    path->track = target_place(motion, track);
+    path->source = path->track.source;
+    *m = (struct moving){.track = track, .path = path};
+    if (!has_one_form(motion, track) || !override_parse_path(path) || !override_walk(path, &target) ||
+        !take_target(motion, m, &target))
+        return false;
+    return track->keys.count == 0 || take_keys(motion, m);
+}
+
+// ---- two tracks of one value
+
+static int compare_fields(const void *a, const void *b) {
+    const struct moving *const *x = a, *const *y = b;
+    if ((*x)->field != (*y)->field)
+        return (*x)->field < (*y)->field ? -1 : 1;
+    return (*x)->track < (*y)->track ? -1 : (*x)->track > (*y)->track;
+}
+
+static void find_twice(const struct motion *motion) {
+    struct moving **sorted = ARENA_ARRAY(scratch(motion), struct moving *, motion->count);
+    for (uint32_t i = 0; i < motion->count; i++)
+        sorted[i] = &motion->items[i];
+    if (motion->count)
+        qsort(sorted, motion->count, sizeof(struct moving *), compare_fields);
+    for (uint32_t i = 1; i < motion->count; i++) {
+        const struct moving *first = sorted[i - 1], *second = sorted[i];
+        if (first->field + first->width <= second->field)
+            continue;
+        if (first->track > second->track)
+            first = sorted[i], second = sorted[i - 1];
+        diag_add(sink(motion), DIAG_TRACK_TWICE, second->path->path, "two tracks move %.*s",
+                 STR_ARG(say_subject(scratch(motion), second->subject)));
+        diag_note(sink(motion), first->path->path, "the other one is here");
+    }
+}
+
+void motion_find(struct motion *motion) {
+    const struct ir_tracks *tracks = &motion->animation->tracks;
+    motion->items = ARENA_ARRAY(motion->loader->input->arena, struct moving, tracks->count);
+    for (uint32_t i = 0; i < tracks->count; i++) {
+        look_beyond(motion, &tracks->items[i]);
+        if (read_track(motion, &tracks->items[i], &motion->items[motion->count]))
+            motion->count++;
+    }
+    find_twice(motion);
+}
