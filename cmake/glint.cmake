@@ -9,8 +9,9 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 option(GLINT_WERROR "Treat warnings as errors" OFF)
 option(GLINT_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 option(GLINT_DEVICE "Draw on devices; without it glint checks, and draws by the reference, and needs neither Vulkan nor glslang" ON)
+option(GLINT_WEBGPU "In a page: draw by WebGPU, without Vulkan; by emscripten, and not with GLINT_DEVICE" OFF)
 # Known at compile time, so that a linker that looks into functions leaves out what only devices reach.
-add_compile_definitions(CLI_HAS_DEVICES=$<BOOL:${GLINT_DEVICE}>)
+add_compile_definitions(CLI_HAS_DEVICES=$<OR:$<BOOL:${GLINT_DEVICE}>,$<BOOL:${GLINT_WEBGPU}>>)
 # Reports link to docs/codes.md below it. There is no copy of glint that all know: whoever publishes one names it here.
 set(GLINT_HOME "https://example.com/glint" CACHE STRING "Address of this copy of glint, for links in reports; empty: no links")
 option(GLINT_FUZZ "Build the libFuzzer targets (clang only)" OFF)

@@ -2,7 +2,14 @@
 // so that devices agree.
 
 vec3 background_texel(int x, int y) {
+#ifdef WEBGPU
+    uint at = uint(y) * frame.background_width + uint(x);
+    if (dispatch.background_is_float > OPAQUE_ZERO)
+        return uintBitsToFloat(FETCH(background, at).xyz);
+    return unpackUnorm4x8(FETCH(background, at >> 2u)[at & 3u]).xyz;
+#else
     return texelFetch(background_texels, y * int(frame.background_width) + x).xyz;
+#endif
 }
 
 vec3 background_image(vec3 d) {

@@ -1,7 +1,7 @@
 // What each kernel begins with: bindings, specialization constants and the one door to the scene's words.
 //
 // WORDS are texel buffers on CPU devices (lavapipe loads a texel in one piece, but a storage buffer lane
-// by lane) and storage buffers on GPUs: FETCH hides which.
+// by lane) and storage buffers on GPUs; in a page they are parts of one. FETCH hides which.
 #extension GL_EXT_spirv_intrinsics : require
 // SignedZeroInfNanPreserve, or a compiler may take NaN for absent; stripped where a device lacks it;
 // tools/spirv_exact asks for it of doubles too.
@@ -11,6 +11,9 @@ spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [44
 #include "frame.h"
 #include "gpu_scene.h"
 #include "real.h"
+#ifdef WEBGPU
+#include "web.h"
+#endif
 
 layout(constant_id = CONSTANT_FEATURES) const uint FEATURES = 0xffffffffu;
 layout(constant_id = CONSTANT_MORE_FEATURES) const uint MORE_FEATURES = 0xffffffffu;
@@ -59,6 +62,11 @@ uint counted_nodes = 0u, counted_items = 0u, counted_unseen = 0u;
 #ifdef FETCH_TEXELS
 #define WORDS(number, name) layout(set = 0, binding = number) uniform usamplerBuffer name;
 #define FETCH(name, index)  texelFetch(name, int(index))
+#elif defined(WEBGPU)
+#define WORDS(number, name)
+#define FETCH_OF(name, index) all_words[dispatch.begin_##name + (index)]
+#define FETCH(name, index)    FETCH_OF(name, index)
+layout(set = 0, binding = BINDING_WORDS, std430) readonly restrict buffer word_block { uvec4 all_words[]; };
 #else
 #define WORDS(number, name)                                                                                  \
     layout(set = 0, binding = number, std430) readonly restrict buffer name##_words { uvec4 name[]; };
@@ -90,7 +98,9 @@ WORDS(BINDING_PAINTS, paints)
 #ifdef INSTANCES
 WORDS(BINDING_INSTANCES, instances)
 #endif
+#ifndef WEBGPU
 layout(set = 0, binding = BINDING_BACKGROUND) uniform samplerBuffer background_texels;
+#endif
 layout(set = 0, binding = BINDING_OUTPUT, std430) restrict buffer output_words { uvec4 pixels[]; };
 layout(set = 0, binding = BINDING_STATE, std430) restrict buffer state_words { uvec4 states[]; };
 layout(set = 0, binding = BINDING_COUNTERS, std430) restrict buffer counter_words { uint counters[]; };
@@ -111,9 +121,16 @@ layout(set = 0, binding = BINDING_FRAME, std140) uniform frame_block {
 } frame;
 #define CAMERA(name) frame.camera_##name
 #endif
+#ifdef WEBGPU
+layout(set = 0, binding = BINDING_DISPATCH, std140) uniform dispatch_block {
+    DISPATCH_FIELDS(FLOAT_FIELD, UINT_FIELD)
+    WEB_FIELDS(UINT_FIELD)
+} dispatch;
+#else
 layout(push_constant) uniform dispatch_block {
     DISPATCH_FIELDS(FLOAT_FIELD, UINT_FIELD)
 } dispatch;
+#endif
 
 // The z of every dispatch's workgroups, which no compiler knows. lavapipe compiles a kernel anew for each
 // value of a uniform that alone decides a branch or a loop's end: such conditions are mixed with this.

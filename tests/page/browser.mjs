@@ -11,12 +11,13 @@ const WAIT_MS = +process.env.PAGE_WAIT || 60000; // for what should come at once
 export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
 export class Browser {
-  static async start() {
+  // With more words for Chromium's command line.
+  static async start(...more) {
     const browser = new Browser();
     browser.folder = fs.mkdtempSync(path.join(os.tmpdir(), 'glint-page-'));
     const words = [
       '--headless', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--disable-background-networking', '--disable-component-update',
-      '--no-first-run', `--user-data-dir=${browser.folder}`, '--remote-debugging-pipe', '--window-size=1400,900', 'about:blank',
+      '--no-first-run', `--user-data-dir=${browser.folder}`, '--remote-debugging-pipe', '--window-size=1400,900', ...more, 'about:blank',
     ];
     browser.process = spawn(PROGRAM, words, { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] });
     browser.waiting = new Map();

@@ -1,12 +1,10 @@
 // glint.wasm in a worker of its own, over files that exist only in memory. Takes messages:
-//   {module}                    first: the compiled module, shared by all workers
+//   {module, gpu}               first: the compiled module, shared by all workers; `gpu`: the one that draws by WebGPU (glint-gpu.js)
 //   {files, gone}               new or changed files by their paths in the scene's folder, and paths that went away
 //   {id, words, take}           a command; answers {id, status, out, err, files}, with the files named in `take`, if there
 //   {lsp}                       a message of a language client, as text; answers, in any number, {lsp}
 // {id, died} answers a command that ended the module itself (memory, stack): this worker is of no use after it.
 'use strict';
-importScripts('glint.js');
-
 const FOLDER = '/scene';
 const IDLE_MS = 400; // how long nobody must have typed before what takes longer is checked
 
@@ -16,9 +14,26 @@ let soon = 0;
 let busy = Promise.resolve();
 const printed = { out: [], err: [] };
 
-function start(module) {
+let draws = false; // by WebGPU
+
+// A kernel, of which only those that are used are fetched.
+async function kernel(name) {
+  const response = await fetch(`${name}.wgsl`);
+  if (!response.ok) throw new Error(`${name}.wgsl: ${response.status} ${response.statusText}`);
+  return response.text();
+}
+
+function start(module, gpu) {
+  draws = gpu;
+  importScripts(gpu ? 'glint-gpu.js' : 'glint.js');
   return createGlint({
+    kernel,
     instantiateWasm(imports, done) {
+      if (draws) {
+        // Where these wait, so does the module: by JavaScript Promise Integration.
+        for (const part of Object.values(imports))
+          for (const [name, one] of Object.entries(part)) if (one.suspends) part[name] = new WebAssembly.Suspending(one);
+      }
       WebAssembly.instantiate(module, imports).then((instance) => done(instance, module));
       return {};
     },
@@ -54,10 +69,10 @@ function put(files, gone) {
   }
 }
 
-function run({ id, words, take }) {
+async function run({ id, words, take }) {
   let status;
   try {
-    status = glint.callMain(words);
+    status = draws ? await glint.run(words) : glint.callMain(words);
   } catch (error) {
     postMessage({ id, died: String((error && error.message) || error) });
     return;
@@ -92,10 +107,10 @@ function serve(text) {
 }
 
 async function take(data) {
-  if (data.module) glint = await start(data.module);
+  if (data.module) glint = await start(data.module, !!data.gpu);
   else if (data.files) put(data.files, data.gone);
   else if (data.lsp) serve(data.lsp);
-  else run(data);
+  else await run(data);
 }
 
 // One after the other, in their order.

@@ -1,0 +1,8 @@
+// For a module that draws by WebGPU: JavaScript gets main() as the table has it, whatever the linker calls
+// it, to run it where it may be suspended (gpu/library.js).
+extern void gpuweb_take_main(int (*run)(int, char **));
+extern int main(int, char **);
+
+__attribute__((constructor)) static void give_main(void) {
+    gpuweb_take_main(main);
+}
