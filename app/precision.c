@@ -162,6 +162,8 @@ static enum precision_status choose(struct session *session, struct flat_input *
         report_no_memory(session);
     if (status != PRECISION_DONE)
         return status;
+    if (wish.choice)
+        *wish.choice = choice;
     if (choice.needs_double && !has_double)
         warn(session, &choice);
     input->is_double = choice.needs_double && has_double;

@@ -17,6 +17,7 @@ struct precision_wish {
     struct reference **reference;
     bool (*ready)(void *context);
     void *ready_context;
+    struct precision_choice *choice; // takes what a trial found; NULL: not asked
 };
 
 // Sets input->is_double: the scene's setting, or, if that is auto, what a trial on the device finds, which

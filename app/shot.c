@@ -32,7 +32,8 @@ static enum shot_status flatten_shot(struct opening *opening, struct precision_g
     const struct precision_wish wish = {.counts = shot->wish.counts,
                                         .reference = shot->wish.audits ? &shot->reference : NULL,
                                         .ready = shot->wish.ready ? ask : NULL,
-                                        .ready_context = opening};
+                                        .ready_context = opening,
+                                        .choice = shot->wish.choice};
     const enum precision_status status =
         precision_choose(s, &input, shot->gpu, gpu_info(shot->gpu)->has_double, wish, gains);
     bool good = status == PRECISION_DONE;

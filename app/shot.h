@@ -18,6 +18,8 @@ enum shot_status {
     SHOT_ENDED, // shot_wish.ready did not want to go on
 };
 
+struct precision_choice;
+
 // Of a picture, in pixels.
 struct shot_region {
     uint32_t x, y, width, height;
@@ -32,7 +34,8 @@ struct shot_wish {
     // settles it. false: the shot is not opened. NULL: the session is settled.
     bool (*ready)(void *context);
     void *ready_context;
-    struct bvh_keep *keep; // of the trees, for a scene that changes (app/live); NULL: all are built
+    struct precision_choice *choice; // takes what the trial of `auto` found; NULL: not asked
+    struct bvh_keep *keep;           // of the trees, for a scene that changes (app/live); NULL: all are built
 };
 
 struct shot {

@@ -1,5 +1,6 @@
 #include "app/live/live.h"
 
+#include "app/live/live_precision.h"
 #include "app/precision.h"
 #include "app/where.h"
 #include "core/clock.h"
@@ -89,9 +90,14 @@ static enum live_state state_of(enum shot_status status) {
 // A new shot. The one that is there stays if this fails by the scene; what points into a shot needs its
 // place.
 static enum live_state open_whole(struct live *live, struct session *session, uint32_t camera) {
-    const struct shot_wish wish = {.counts = live->wish.counts, .keep = live->keep};
+    const bool asks = session->scene->trace.precision == IR_PRECISION_AUTO;
+    const struct shot_wish wish = {
+        .counts = live->wish.counts, .keep = live->keep, .choice = asks ? &live->choice : NULL};
     struct shot old = live->shot;
     live->change.is_whole = true;
+    live->change.precision_asked = asks;
+    live->is_asked = asks;
+    live->kept = 0;
     const enum shot_status status = shot_open_for(&live->shot, session, live->gpu, camera, wish);
     if (status != SHOT_OK) {
         shot_close(&live->shot);
@@ -106,12 +112,17 @@ static enum live_state open_whole(struct live *live, struct session *session, ui
 }
 
 // Whether `auto` might choose another precision: it looks at bodies more than at how they are lit.
-static bool is_other_geometry(const struct live *live, const struct live_loaded *loaded) {
+static bool is_other_geometry(struct live *live, const struct live_loaded *loaded, uint32_t camera) {
     const struct session *old = live->session, *session = loaded->session;
-    return old->scene->trace.precision != session->scene->trace.precision ||
-           (session->scene->trace.precision == IR_PRECISION_AUTO &&
-            (live->wish.alone || loaded->meshes_read ||
-             old->resolved.body_count != session->resolved.body_count));
+    if (old->scene->trace.precision != session->scene->trace.precision)
+        return true;
+    if (session->scene->trace.precision != IR_PRECISION_AUTO)
+        return false;
+    if (loaded->meshes_read || old->resolved.body_count != session->resolved.body_count)
+        return true;
+    const bool keeps = !live->wish.alone || live_keeps_precision(live, loaded->session, camera);
+    live->kept += keeps;
+    return !keeps;
 }
 
 static vec3 choose_origin(const struct live *live, const struct session *session, const struct view *view) {
@@ -175,9 +186,10 @@ static enum live_state show(struct live *live, const struct live_loaded *loaded,
     const uint32_t camera = session_camera(session, name);
     if (camera == IR_NO_INDEX)
         return LIVE_BROKEN;
-    const enum live_state state = !live->session || !live->shot.renderer || is_other_geometry(live, loaded)
-                                      ? open_whole(live, session, camera)
-                                      : renew(live, session, camera);
+    const enum live_state state =
+        !live->session || !live->shot.renderer || is_other_geometry(live, loaded, camera)
+            ? open_whole(live, session, camera)
+            : renew(live, session, camera);
     if (state == LIVE_SHOWN)
         live->camera = camera;
     return state;

@@ -14,6 +14,7 @@
 
 #include "app/shot.h"
 #include "files/watch.h"
+#include "precision/precision.h"
 #include "tracer/bvh/keep.h"
 
 struct live_wish {
@@ -21,8 +22,8 @@ struct live_wish {
     str camera;                     // as session_camera has it
     bool counts;                    // pictures count their rays
     bool polls;                     // files are looked at from time to time, without inotify
-    // Of many pictures, each has the bytes that a program that has just started would give it: origin and
-    // precision are chosen for each. No file is watched.
+    // Of many pictures, each has the bytes that a program that has just started would give it: the origin is
+    // chosen for each, and the precision, unless live->follows. No file is watched.
     bool alone;
 };
 
@@ -37,6 +38,7 @@ struct live_change {
     uint32_t meshes_read, images_read;
     uint32_t trees_built, trees_kept;
     uint32_t pipelines_made;
+    uint32_t precision_asked;     // 1: `auto` made a trial
     struct render_update written; // to the device
     bool is_whole; // all was made anew: the first time, and where the precision was chosen again
     double read_seconds, assets_seconds, flatten_seconds, upload_seconds;
@@ -52,8 +54,14 @@ struct live {
     struct session *session; // of the shot; NULL: there is none yet
     struct session *broken;  // the last one loaded, if it has errors
     struct shot shot;
-    uint32_t camera;           // that the wish names, in the session
-    vec3 origin;               // that coordinates are relative to
+    uint32_t camera; // that the wish names, in the session
+    vec3 origin;     // that coordinates are relative to
+    // The next session shows what the shot's does, a moment later: what `auto` found holds where the answer
+    // was clear and what is measured stays like it was (live_precision.c).
+    bool follows;
+    bool is_asked; // `choice` is what the last trial found, for `kept` sessions since
+    uint32_t kept;
+    struct precision_choice choice;
     struct live_change change; // of the last load
     uint32_t loads;
 };

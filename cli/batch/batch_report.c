@@ -73,6 +73,9 @@ static void put_text(const struct batch_run *run, struct strbuf *out) {
     const struct batch_counts *c = &run->counts;
     strbuf_format(out, "%u picture%s written, %u failed, %u done already, from %u load%s\n", c->written,
                   plural(c->written), c->failed, c->skipped, c->loads, plural(c->loads));
+    if (c->precision_asked)
+        strbuf_format(out, "  precision asked for %u picture%s\n", c->precision_asked,
+                      plural(c->precision_asked));
     strbuf_format(out, "  %u mesh%s and %u image%s read, %u tree%s built and %u kept, %u pipeline%s made\n",
                   c->meshes_read, c->meshes_read == 1 ? "" : "es", c->images_read, plural(c->images_read),
                   c->trees_built, plural(c->trees_built), c->trees_kept, c->pipelines_made,
@@ -96,6 +99,7 @@ static void put_json(const struct batch_run *run, struct strbuf *out) {
     json_write_integer(&w, "trees_built", c->trees_built);
     json_write_integer(&w, "trees_kept", c->trees_kept);
     json_write_integer(&w, "pipelines_made", c->pipelines_made);
+    json_write_integer(&w, "precision_asked", c->precision_asked);
     json_open_object(&w, "times");
     json_write_real(&w, "frames_s", c->trace_seconds);
     json_write_real(&w, "device_s", c->device_seconds);

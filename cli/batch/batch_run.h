@@ -46,7 +46,7 @@ struct batch_checkpoint {
 struct batch_counts {
     uint32_t faulty;                                 // written with faulty pixels
     uint32_t begun, written, failed, skipped, loads; // a picture with faulty pixels is written and failed
-    uint32_t meshes_read, images_read, trees_built, trees_kept, pipelines_made;
+    uint32_t meshes_read, images_read, trees_built, trees_kept, pipelines_made, precision_asked;
     double trace_seconds, device_seconds; // of frames; until the device was open
 };
 

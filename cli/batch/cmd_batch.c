@@ -155,12 +155,23 @@ static void take_loaded(struct batch_run *run, uint32_t number) {
     run->counts.loads++;
 }
 
+// Whether a picture shows the scene of the one before, in the frame after its own.
+static bool is_next_frame(const struct batch_run *run, uint32_t number) {
+    const struct batch_job *job = &run->batch.jobs.items[number];
+    if (number == 0 || !job->has_frame)
+        return false;
+    const struct batch_job *before = job - 1;
+    return before->has_frame && job->frame == before->frame + 1 && job->scene == before->scene &&
+           str_equal(job->values, before->values) && str_equal(job->camera, before->camera);
+}
+
 static enum live_state show(struct batch_run *run, uint32_t number) {
     const struct batch_job *job = &run->batch.jobs.items[number];
     struct batch_counts *c = &run->counts;
     enum live_state state = LIVE_BROKEN;
     if (run->is_pending) {
         run->is_pending = false;
+        run->live.follows = is_next_frame(run, number);
         state = live_show(&run->live, run->pending, job->camera);
         run->is_load_good = state == LIVE_SHOWN;
     } else if (run->is_load_good) {
@@ -172,6 +183,7 @@ static enum live_state show(struct batch_run *run, uint32_t number) {
     c->trees_built += change->trees_built;
     c->trees_kept += change->trees_kept;
     c->pipelines_made += change->pipelines_made;
+    c->precision_asked += change->precision_asked;
     return state;
 }
 

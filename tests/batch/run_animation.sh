@@ -67,6 +67,17 @@ matches '1 mesh and 0 images read' stats.txt && pass 'nothing is read twice' || 
     fail 'nothing is read twice'
     cat stats.txt
 }
+# What `auto` found holds while a scene stays like it was: not where the finest thing gets four times as small with each frame, or the
+# camera looks elsewhere.
+asked() { sed -n 's/.*"precision_asked": \([0-9]*\).*/\1/p'; }
+n=$("$glint" render scene.yaml --frames all -o 'p.%02d.pfm' -q --stats=json | asked)
+[ "$n" -ge 2 ] && [ "$n" -le 6 ] && pass "precision asked for $n of 20 frames" || fail "precision asked for $n of 20 frames"
+n=$("$glint" render still.yaml --frames 0..4 --set 'spheres[ball].radius={0.9/4^frame}' -o 'p.%02d.pfm' -q --stats=json | asked)
+[ "$n" -ge 3 ] && pass 'again where the finest shrinks' || fail "for $n of 5 frames of what shrinks"
+n=$("$glint" render still.yaml --frames 0..4 --set 'camera.position=[{6*(frame%2)}, 0, {6-6*(frame%2)}]' -o 'p.%02d.pfm' -q --stats=json | asked)
+[ "$n" = 5 ] && pass 'for each cut' || fail "for $n of 5 cuts"
+n=$("$glint" render scene.yaml --sweep camera.fov=39:41:3 -o 'p.%02d.pfm' -q --stats=json | asked)
+[ "$n" = 3 ] && pass 'for each value of a sweep' || fail "for $n of 3 values of a sweep"
 "$glint" render scene.yaml --frame 4 -o one.png -q && cmp -s one.png f.04.png && pass 'one frame' || fail 'one frame'
 "$glint" render scene.xml --frames 4 -o xml.png -q && "$glint" compare xml.png f.04.png --max-mae 0 >/dev/null &&
     pass 'the other spelling' || fail 'the other spelling'
