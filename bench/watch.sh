@@ -1,7 +1,8 @@
 #!/bin/sh
 # From a saved scene to its picture: bench/watch.sh [SCENE] [OPTION...], by build/release/glint render --watch, at 512x384 with one
 # sample unless options say otherwise. Each of six kinds of edits is made five times; of each the least time is printed,
-# as glint measures it from when it saw the change, with what was done, and by stage, in milliseconds.
+# as glint measures it from when it saw the change, the time to the coarse picture before it (0: there was none), what was done,
+# and each stage, in milliseconds.
 set -eu
 cd "$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)"
 glint=$PWD/build/release/glint
@@ -40,11 +41,11 @@ edit() {
         cat "$work/next.yaml" >"$copy"
         await
         line=$(printf '%s ' "$(value total_s)" "$(value read_s)" "$(value assets_s)" "$(value flatten_s)" "$(value upload_s)" \
-            "$(value frame_s)" "$(value encode_s)" "$(value meshes_read)" "$(value trees_built)" "$(value pipelines_made)" "$(value bytes_written)")
+            "$(value frame_s)" "$(value encode_s)" "$(value meshes_read)" "$(value trees_built)" "$(value pipelines_made)" "$(value bytes_written)" "$(value coarse_s)")
         best=$(printf '%s\n%s\n' "$best" "$line" | sed '/^$/d' | sort -g | head -1)
     done
-    printf '%s\n' "$best" | awk -v name="$1" '{ printf "%-10s %6.1f ms: read %.1f, assets %.1f, flatten %.1f, upload %.1f, frame %.1f, encode %.1f; %d meshes read, %d trees built, %d pipelines made, %d bytes written\n",
-        name, 1e3 * $1, 1e3 * $2, 1e3 * $3, 1e3 * $4, 1e3 * $5, 1e3 * $6, 1e3 * $7, $8, $9, $10, $11 }'
+    printf '%s\n' "$best" | awk -v name="$1" '{ printf "%-10s %6.1f ms, coarse %.1f: read %.1f, assets %.1f, flatten %.1f, upload %.1f, frame %.1f, encode %.1f; %d meshes read, %d trees built, %d pipelines made, %d bytes written\n",
+        name, 1e3 * $1, 1e3 * $12, 1e3 * $2, 1e3 * $3, 1e3 * $4, 1e3 * $5, 1e3 * $6, 1e3 * $7, $8, $9, $10, $11 }'
 }
 
 await

@@ -244,7 +244,8 @@ static void answer(struct server *server) {
         break;
     case PREVIEW_SLOW:
         refuse(server, &p->drawn, RPC_REQUEST_FAILED,
-               "not even a small picture of this scene is drawn in a second; ask for a smaller size");
+               "there was no time even for a picture of few pixels; ask for a smaller size, or for more "
+               "seconds");
         return;
     case PREVIEW_CANCELLED:
         refuse(server, &p->drawn, RPC_REQUEST_CANCELLED, "the preview was cancelled");
@@ -275,6 +276,13 @@ static bool take_number(const json_t *argument, const char *key, int standard, i
     return true;
 }
 
+static bool take_seconds(const json_t *argument, double *out) {
+    const json_t *value = json_object_get(argument, "seconds");
+    const bool has = value && !json_is_null(value);
+    *out = has ? json_number_value(value) : PREVIEW_SECONDS;
+    return !has || (*out >= PREVIEW_SECONDS_LEAST && *out <= PREVIEW_SECONDS_MOST);
+}
+
 // The scene's proportions.
 static void choose_size(const struct ir_image *image, int longest, struct session_options *options) {
     const double larger = image->width > image->height ? image->width : image->height;
@@ -286,6 +294,7 @@ struct preparing {
     struct server *server;
     struct request request;
     int size, samples;
+    double seconds;
 };
 
 // All that is drawn from, in memory that the editor's next changes leave alone.
@@ -294,7 +303,7 @@ static void prepare(void *context) {
     struct server_preview *p = c->server->preview;
     struct preview_wish *wish = &p->wish;
     const struct documents *documents = &c->server->documents;
-    *wish = (struct preview_wish){.session = c->server->scenes.settings, .seconds = PREVIEW_SECONDS};
+    *wish = (struct preview_wish){.session = c->server->scenes.settings, .seconds = c->seconds};
     wish->camera = arena_copy(&p->arena, camera_at(&c->request));
     choose_size(c->request.session->image, c->size, &wish->session);
     wish->session.samples = c->samples;
@@ -332,9 +341,11 @@ static void begin(struct server *server) {
     server_refresh(server, SCENES_QUICK);
     if (!uri ||
         !take_number(argument, "size", PREVIEW_SIZE, PREVIEW_SIZE_LEAST, PREVIEW_SIZE_MOST, &c.size) ||
-        !take_number(argument, "samples", PREVIEW_SAMPLES, 1, PREVIEW_SAMPLES_MOST, &c.samples)) {
+        !take_number(argument, "samples", PREVIEW_SAMPLES, 1, PREVIEW_SAMPLES_MOST, &c.samples) ||
+        !take_seconds(argument, &c.seconds)) {
         refuse(server, &p->waiting, RPC_INVALID_PARAMS,
-               "glint.preview takes {textDocument: {uri}, position, size: 16 to 1024, samples: 1 to 256}");
+               "glint.preview takes {textDocument: {uri}, position, size: 16 to 1024, samples: 1 to 256, "
+               "seconds: 0.1 to 60}");
         return;
     }
     if (!document) {

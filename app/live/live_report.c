@@ -24,6 +24,8 @@ void live_text(const struct live_report *report, struct strbuf *out) {
         strbuf_format(out, "%llu bytes written to the device\n", (unsigned long long)c->written.bytes);
     strbuf_format(out, "  read %.1f, assets %.1f, flatten %.1f, upload %.1f", 1e3 * c->read_seconds,
                   1e3 * c->assets_seconds, 1e3 * c->flatten_seconds, 1e3 * c->upload_seconds);
+    if (has_picture(report) && report->coarse_seconds > 0)
+        strbuf_format(out, ", a coarse picture after %.1f", 1e3 * report->coarse_seconds);
     if (has_picture(report))
         strbuf_format(out, ", frame %.1f, encode %.1f; all %.1f ms", 1e3 * report->frame->wall_seconds,
                       1e3 * report->encode_seconds, 1e3 * report->total_seconds);
@@ -40,6 +42,7 @@ static void put_times(struct json_writer *w, const struct live_report *report) {
     json_write_real(w, "flatten_s", c->flatten_seconds);
     json_write_real(w, "upload_s", c->upload_seconds);
     if (has_picture(report)) {
+        json_write_real(w, "coarse_s", report->coarse_seconds);
         json_write_real(w, "frame_s", report->frame->wall_seconds);
         json_write_real(w, "encode_s", report->encode_seconds);
         json_write_real(w, "total_s", report->total_seconds);

@@ -15,6 +15,7 @@ struct live_report {
     const char *output; // the picture's file
     uint32_t width, height;
     const struct render_statistics *frame;
+    double coarse_seconds; // from the change that was seen to a picture of few pixels; 0: there was none
     double encode_seconds, total_seconds; // total: from the change that was seen to the picture
 };
 

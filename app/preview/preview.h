@@ -30,7 +30,9 @@ enum {
     PREVIEW_SAMPLES = 4,
     PREVIEW_SHRINK = 4, // the first picture is smaller by that much, in width and in height
 };
-#define PREVIEW_SECONDS 1.0
+#define PREVIEW_SECONDS       1.0
+#define PREVIEW_SECONDS_LEAST 0.1
+#define PREVIEW_SECONDS_MOST  60.0
 
 struct preview_wish {
     struct session_options session; // with width, height and samples of the picture

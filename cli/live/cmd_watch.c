@@ -2,6 +2,7 @@
 #include "app/live/live_report.h"
 #include "cli/cli.h"
 #include "cli/device.h"
+#include "cli/live/coarse.h"
 #include "cli/pictures/provenance.h"
 #include "cli/progress.h"
 #include "cli/render_job.h"
@@ -26,9 +27,10 @@ struct watching {
     enum image_format format;
     struct image image;
     struct progress progress;
-    double looked;  // clock: at the files, during a frame
-    bool is_stale;  // the frame was ended because a file has changed
-    double changed; // clock: when the last change was seen
+    double looked;        // clock: at the files, during a frame
+    bool is_stale;        // the frame was ended because a file has changed
+    double changed;       // clock: when the last change was seen
+    double pixel_seconds; // that a sample of a pixel took in the last frame; 0: there was none
 };
 
 // ---- what does not go together with it
@@ -89,10 +91,35 @@ static bool fit_image(struct watching *w) {
     return image_init(&w->image, settings->width, settings->height);
 }
 
-static int write_picture(struct watching *w, double *encode_seconds) {
+static int encode_and_write(struct watching *w, double *encode_seconds) {
     struct strbuf file;
     strbuf_init(&file);
     const double start = clock_seconds();
+    image_encode(&w->image, w->format, w->live.shot.display, &file);
+    *encode_seconds = clock_seconds() - start;
+    const int status = cli_write_made(w->cli, w->output, &file, "the picture");
+    strbuf_finish(&file);
+    return status;
+}
+
+// Something to see at once, where the frame takes long: it does not say how it was made.
+static int show_coarse(struct watching *w, const struct render_progress *progress, double *seconds) {
+    const uint32_t shrink = coarse_shrink(&w->live.shot.settings, w->pixel_seconds);
+    double encode_seconds;
+    *seconds = 0;
+    if (shrink == 1 || image_format_info(w->format)->is_linear)
+        return CLI_OK;
+    const enum shot_status taken = coarse_take(&w->live.shot, shrink, &w->image, progress);
+    if (taken != SHOT_OK)
+        return taken == SHOT_DEVICE ? cli_device_failed(w->cli, w->gpu) : CLI_OK;
+    w->image.coding = render_coding(&w->cli->options, w->format);
+    w->image.texts = (struct image_texts){0};
+    const int status = encode_and_write(w, &encode_seconds);
+    *seconds = clock_seconds() - w->changed;
+    return status;
+}
+
+static int write_picture(struct watching *w, double *encode_seconds) {
     w->image.coding = render_coding(&w->cli->options, w->format);
     const struct provenance made = {.session = w->live.session,
                                     .gpu = w->live.gpu,
@@ -101,11 +128,7 @@ static int write_picture(struct watching *w, double *encode_seconds) {
                                     .format = w->format,
                                     .coding = w->image.coding};
     w->image.texts = provenance_texts(w->cli, &made);
-    image_encode(&w->image, w->format, w->live.shot.display, &file);
-    *encode_seconds = clock_seconds() - start;
-    const int status = cli_write_made(w->cli, w->output, &file, "the picture");
-    strbuf_finish(&file);
-    return status;
+    return encode_and_write(w, encode_seconds);
 }
 
 static int tell(struct watching *w, const struct live_report *report) {
@@ -138,19 +161,27 @@ static int show_picture(struct watching *w) {
     w->is_stale = false;
     w->looked = clock_seconds();
     progress_begin(&w->progress, quiet);
-    const enum shot_status status = shot_take(&w->live.shot, &w->image, &progress, &frame);
+    double coarse_seconds;
+    const int coarse = show_coarse(w, &progress, &coarse_seconds);
+    enum shot_status status = SHOT_CANCELLED;
+    if (coarse == CLI_OK && !w->is_stale && !interrupt_signal())
+        status = shot_take(&w->live.shot, &w->image, &progress, &frame);
     progress_end(&w->progress);
+    if (coarse != CLI_OK)
+        return coarse;
     // By a signal or by a change, which the caller sees.
     if (status == SHOT_CANCELLED)
         return CLI_OK;
     if (status == SHOT_DEVICE)
         return cli_device_failed(w->cli, w->gpu);
+    w->pixel_seconds = frame.wall_seconds / ((double)w->image.width * w->image.height * frame.samples);
     cli_report(w->cli, w->live.session, !quiet);
     struct live_report report = {.live = &w->live,
                                  .output = w->output,
                                  .width = w->image.width,
                                  .height = w->image.height,
-                                 .frame = &frame};
+                                 .frame = &frame,
+                                 .coarse_seconds = coarse_seconds};
     const int written = write_picture(w, &report.encode_seconds);
     report.total_seconds = clock_seconds() - w->changed;
     if (written != CLI_OK)

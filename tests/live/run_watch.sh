@@ -120,8 +120,52 @@ unloaded 'other files of the folder do not count'
 [ -z "$(find . -name '*.tmp*' -o -name '.out*')" ] && pass 'nothing is left beside the picture'
 ends 'SIGINT ends it' INT 0
 
+# Of many models that show one mesh, instances on the device, one that moves costs the tree over all of them, and their records:
+# neither the mesh's tree nor its triangles.
+awk 'BEGIN { n = 64
+    for (y = 0; y <= n; y++) for (x = 0; x <= n; x++) printf "v %g %g %g\n", x / n - 0.5, 0.1 * sin(x) * cos(y), y / n - 0.5
+    for (y = 0; y < n; y++) for (x = 1; x <= n; x++) { i = y * (n + 1) + x; printf "f %d %d %d %d\n", i, i + 1, i + n + 2, i + n + 1 } }' >meshes/cloth.obj
+{
+    printf 'glint: 1\nimage: {width: 40, height: 30}\ntrace: {precision: single}\ncamera: {position: [0, 4, 9], look_at: [0, 0, 0]}\n'
+    printf 'lights: [{position: [-5, 8, 5]}]\nmodels:\n'
+    for x in -6 -5 -4 -3 -2 -1 0 1 2 3 4 5 6; do
+        for z in -6 -5 -4 -3 -2 -1 0 1 2 3 4 5 6; do echo "  - {mesh: meshes/cloth.obj, translation: [$x, 0, $z]}"; done
+    done
+} >scene.yaml
+begin "$glint" render scene.yaml --watch -o out.pfm --stats=json
+loaded 'instances' '"load": 1, "broken": false' '"meshes_read": 1' '"trees_built": 2'
+# written: what the last load wrote to the device, in bytes.
+written() { sed -n 's/.*"bytes_written": \([0-9]*\).*/\1/p' load.json; }
+# few NAME MOST
+few() {
+    if [ "$(written)" -gt 0 ] && [ "$(written)" -le "$2" ]; then pass "$1"; else fail "$1: $(written)"; fi
+}
+sed -i 's/\[2, 0, -1\]/[2.2, 0.3, -1]/' scene.yaml
+loaded 'an instance in another place' '"whole": false, "meshes_read": 0' '"trees_built": 1, "trees_kept": 1' "$compiled"
+few 'writes what is over the instances alone' 20000
+as_new 'its picture'
+sed -i 's/\[2.2, 0.3, -1\]/[2.2, 0.3, -1], rotation: [0, 30, 10], scale: 1.2/' scene.yaml
+loaded 'one that is turned and scaled' '"meshes_read": 0' '"trees_built": 1, "trees_kept": 1' "$compiled"
+few 'writes no more' 20000
+as_new 'its picture'
+sed -i '$d' scene.yaml
+loaded 'one that is gone' '"meshes_read": 0' '"trees_built": 1, "trees_kept": 1' "$compiled"
+as_new 'its picture'
+ends 'SIGTERM ends it' TERM 0
+
+# A frame that takes long has a picture of few pixels before it.
+sed -i 's/width: 40, height: 30/width: 480, height: 360, samples: 4/' scene.yaml
 begin "$glint" render scene.yaml --watch -o out.png --stats=json -q
 loaded 'as PNG' '"load": 1, "broken": false'
+# seconds KEY: of the last load.
+seconds() { sed -n "s/.*\"$1\": \([0-9.e+-]*\).*/\1/p" load.json; }
+awk "BEGIN { exit !($(seconds coarse_s) == 0) }" || fail 'nothing is known of the first'
+frame=$(seconds frame_s)
+sed -i 's/-5, 8, 5/5, 8, 5/' scene.yaml
+loaded 'a light' "$compiled"
+if awk "BEGIN { exit !(($frame > 0.12) == ($(seconds coarse_s) > 0)) }"; then pass 'few pixels first, where it takes long'; else fail "few pixels: $frame s, $(cat load.json)"; fi
+"$glint" render scene.yaml -o new.png -q 2>/dev/null
+expect 'then the whole picture' 0 '' '' "$glint" compare new.png out.png --max-rmse 0
 ends 'SIGTERM ends it' TERM 0
 [ ! -s said.txt ] && pass 'quiet says nothing'
 exit $failed

@@ -59,14 +59,16 @@ static int end(void **state) {
     return status;
 }
 
-static json_t *wish(struct lsp_client *client, const char *name, int line, int size, int samples) {
-    return json_pack("{s:s, s:[{s:{s:s}, s:{s:i, s:i}, s:i, s:i}]}", "command", "glint.preview", "arguments",
-                     "textDocument", "uri", client_uri(client, name), "position", "line", line, "character",
-                     6, "size", size, "samples", samples);
+static json_t *wish(struct lsp_client *client, const char *name, int line, int size, int samples,
+                    double seconds) {
+    return json_pack("{s:s, s:[{s:{s:s}, s:{s:i, s:i}, s:i, s:i, s:f}]}", "command", "glint.preview",
+                     "arguments", "textDocument", "uri", client_uri(client, name), "position", "line", line,
+                     "character", 6, "size", size, "samples", samples, "seconds", seconds);
 }
 
+// Small, and with all the time that a busy machine may need.
 static json_t *preview(struct lsp_client *client, const char *name, int line) {
-    return client_request(client, "workspace/executeCommand", wish(client, name, line, 32, 1), NULL);
+    return client_request(client, "workspace/executeCommand", wish(client, name, line, 32, 1, 60), NULL);
 }
 
 static int refused(struct lsp_client *client, json_t *params) {
@@ -278,12 +280,14 @@ static void refuses_what_it_cannot_draw(void **state) {
     assert_int_equal(refused(client, json_pack("{s:s}", "command", "glint.preview")), INVALID);
     assert_int_equal(refused(client, json_pack("{s:s, s:[i]}", "command", "glint.preview", "arguments", 3)),
                      INVALID);
-    assert_int_equal(refused(client, wish(client, "main.glint.yaml", 0, 15, 1)), INVALID);
-    assert_int_equal(refused(client, wish(client, "main.glint.yaml", 0, 1025, 1)), INVALID);
-    assert_int_equal(refused(client, wish(client, "main.glint.yaml", 0, 32, 0)), INVALID);
-    assert_int_equal(refused(client, wish(client, "closed.glint.yaml", 0, 32, 1)), FAILED);
+    assert_int_equal(refused(client, wish(client, "main.glint.yaml", 0, 15, 1, 1)), INVALID);
+    assert_int_equal(refused(client, wish(client, "main.glint.yaml", 0, 1025, 1, 1)), INVALID);
+    assert_int_equal(refused(client, wish(client, "main.glint.yaml", 0, 32, 0, 1)), INVALID);
+    assert_int_equal(refused(client, wish(client, "main.glint.yaml", 0, 32, 1, 0.01)), INVALID);
+    assert_int_equal(refused(client, wish(client, "main.glint.yaml", 0, 32, 1, 61)), INVALID);
+    assert_int_equal(refused(client, wish(client, "closed.glint.yaml", 0, 32, 1, 1)), FAILED);
     client_open(client, "other.yaml", "services: {web: {image: nginx}}\n");
-    assert_int_equal(refused(client, wish(client, "other.yaml", 0, 32, 1)), FAILED);
+    assert_int_equal(refused(client, wish(client, "other.yaml", 0, 32, 1, 1)), FAILED);
     client_notify(client, "$/cancelRequest", json_pack("{s:i}", "id", 4711));
     client_notify(client, "$/cancelRequest", NULL);
     json_decref(preview(client, "main.glint.yaml", 99999));
@@ -291,7 +295,7 @@ static void refuses_what_it_cannot_draw(void **state) {
 
 // As much as can be asked for, which takes its whole time.
 static int ask_for_much(struct lsp_client *client) {
-    return client_ask(client, "workspace/executeCommand", wish(client, "main.glint.yaml", 0, 1024, 256));
+    return client_ask(client, "workspace/executeCommand", wish(client, "main.glint.yaml", 0, 1024, 256, 2));
 }
 
 static int code_of(json_t *answer) {
