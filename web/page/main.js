@@ -158,6 +158,8 @@ function showFile(path) {
 }
 
 async function openScene(path, text) {
+  const known = text ?? project.draft(path);
+  if (known !== null) project.files.set(path, known); // nothing is fetched in its place
   try {
     await project.open(path);
   } catch (error) {
