@@ -37,7 +37,8 @@ static const char slurm_words[] =
     "# Options for sbatch come from its environment: SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT.\n"
     "# A task of a node that fails, or that is preempted, is requeued by Slurm; so is one that ends with "
     "status 75.\n"
-    "# It leaves out what is done. Tasks go into as many arrays as MaxArraySize makes necessary (1001 tasks in "
+    "# It leaves out what is done. Tasks go into as many arrays as MaxArraySize makes necessary (1001 tasks "
+    "in "
     "each, unless it is configured).\n";
 
 static const char parallel_words[] =
@@ -98,7 +99,8 @@ static const char *merge_case(const struct farm_plan *plan) {
 
 // Indices of an array are below MaxArraySize too: each array begins at a task of its own.
 static const char arrays_function[] =
-    "# arrays LIST MOST: lines 'FIRST INDICES' for the arrays of at most MOST tasks that a list such as 3,8-9 "
+    "# arrays LIST MOST: lines 'FIRST INDICES' for the arrays of at most MOST tasks that a list such as "
+    "3,8-9 "
     "becomes.\n"
     "arrays() {\n"
     "    printf '%s\\n' \"$1\" | tr , '\\n' | awk -F- -v most=\"$2\" '{\n"
