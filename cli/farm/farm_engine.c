@@ -37,8 +37,9 @@ static const char slurm_words[] =
     "# Options for sbatch come from its environment: SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT.\n"
     "# A task of a node that fails, or that is preempted, is requeued by Slurm; so is one that ends with "
     "status 75.\n"
-    "# It leaves out what is done. Slurm takes up to MaxArraySize tasks in an array (1001, unless it is "
-    "configured).\n";
+    "# It leaves out what is done. Tasks go into as many arrays as MaxArraySize makes necessary (1001 tasks "
+    "in "
+    "each, unless it is configured).\n";
 
 static const char parallel_words[] =
     "#     sh job.sh                runs all tasks that are not done, and then the merge\n"
@@ -96,7 +97,33 @@ static const char *merge_case(const struct farm_plan *plan) {
     return plan->part ? "merge)\n    merge\n    exit \"$status\"\n    ;;\n" : "";
 }
 
+// Indices of an array are below MaxArraySize too: each array begins at a task of its own.
+static const char arrays_function[] =
+    "# arrays LIST MOST: lines 'FIRST INDICES' for the arrays of at most MOST tasks that a list such as "
+    "3,8-9 "
+    "becomes.\n"
+    "arrays() {\n"
+    "    printf '%s\\n' \"$1\" | tr , '\\n' | awk -F- -v most=\"$2\" '{\n"
+    "        end = NF > 1 ? $2 + 0 : $1 + 0\n"
+    "        for (i = $1 + 0; i <= end; i = last + 1) {\n"
+    "            array = int(i / most)\n"
+    "            last = (array + 1) * most - 1\n"
+    "            last = last < end ? last : end\n"
+    "            first = array * most\n"
+    "            range = last > i ? (i - first) \"-\" (last - first) : i - first\n"
+    "            indices[array] = indices[array] (indices[array] == \"\" ? \"\" : \",\") range\n"
+    "            arrays = array > arrays ? array : arrays\n"
+    "        }\n"
+    "    }\n"
+    "    END {\n"
+    "        for (i = 0; i <= arrays; i++)\n"
+    "            if (indices[i] != \"\")\n"
+    "                print i * most, indices[i]\n"
+    "    }'\n"
+    "}\n\n";
+
 static void write_slurm(const struct cli_options *o, const struct farm_plan *plan, struct strbuf *out) {
+    strbuf_cstr(out, arrays_function);
     strbuf_cstr(out, "submit() {\n");
     strbuf_cstr(out, need_file);
     // Slurm replaces words after '%' in names of files: a percent sign is two.
@@ -105,16 +132,26 @@ static void write_slurm(const struct cli_options *o, const struct farm_plan *pla
                                   : "    text=.\n");
     strbuf_format(
         out,
-        "    job=$(sbatch --parsable --job-name=glint-farm --array=\"${1:-0-$((tasks - 1))}\" --requeue \\\n"
-        "        --open-mode=append --signal=B:TERM@30 --ntasks=1%s \\\n"
-        "        --output=\"$text/slurm-%%A_%%a.txt\" \"$script\" task) || exit\n"
-        "    echo \"job ${job%%%%;*}: tasks ${1:-0-$((tasks - 1))}\"\n",
+        "    most=$(scontrol show config 2>/dev/null | sed -n 's/^MaxArraySize *= *\\([0-9]*\\).*/\\1/p')\n"
+        "    [ \"${most:-0}\" -gt 0 ] || most=1001\n"
+        "    list=${1:-0-$((tasks - 1))}\n"
+        "    jobs=\n"
+        "    # shellcheck disable=SC2046 # words\n"
+        "    set -- $(arrays \"$list\" \"$most\")\n"
+        "    while [ $# -ge 2 ]; do\n"
+        "        job=$(sbatch --parsable --job-name=glint-farm --array=\"$2\" --requeue \\\n"
+        "            --open-mode=append --signal=B:TERM@30 --ntasks=1%s \\\n"
+        "            --output=\"$text/slurm-%%A_%%a.txt\" \"$script\" from \"$1\") || exit\n"
+        "        jobs=$jobs:${job%%%%;*}\n"
+        "        echo \"job ${job%%%%;*}: tasks $2 from $1 on\"\n"
+        "        shift 2\n"
+        "    done\n",
         o->farm.gpus ? " --gpus-per-task=1" : "");
     if (plan->part)
         strbuf_cstr(
             out,
             "    # After all tasks, even failed ones: it joins what is there, and names what is not.\n"
-            "    joined=$(sbatch --parsable --job-name=glint-merge --dependency=\"afterany:${job%%;*}\" "
+            "    joined=$(sbatch --parsable --job-name=glint-merge --dependency=\"afterany$jobs\" "
             "--requeue \\\n"
             "        --open-mode=append --ntasks=1 --output=\"$text/slurm-%j.txt\" \"$script\" merge) || "
             "exit\n"
@@ -124,8 +161,12 @@ static void write_slurm(const struct cli_options *o, const struct farm_plan *pla
     strbuf_format(out,
                   "case ${1:-submit} in\n"
                   "submit) submit \"${2:-}\" ;;\n"
-                  "task)\n"
-                  "    task \"${2:-$SLURM_ARRAY_TASK_ID}\"\n"
+                  "task | from)\n"
+                  "    if [ \"$1\" = from ]; then\n"
+                  "        task $(($2 + SLURM_ARRAY_TASK_ID))\n"
+                  "    else\n"
+                  "        task \"${2:-$SLURM_ARRAY_TASK_ID}\"\n"
+                  "    fi\n"
                   "    if [ \"$status\" -eq 75 ] && [ -n \"${SLURM_ARRAY_JOB_ID:-}\" ]; then\n"
                   "        scontrol requeue \"${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID\"\n"
                   "    fi\n"

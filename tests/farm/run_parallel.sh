@@ -53,4 +53,57 @@ cmp -s w.0001.png "f 'x/o \$(y).0001.png" && pass 'the frame that was removed' |
 # Over ssh, as to another host: parallel's own program in the place of ssh.
 "$glint" farm parallel scene.yaml --frames 0..3 --set "$turn" --chunk 1 --gpus=2 --sshlogin 'one,two' --folder g -q
 grep -q -e "--jobs 2 --sshlogin 'one,two'" g/job.sh && pass 'hosts' || fail 'hosts'
+
+# Over ssh for real, on the loopback: a server of our own with keys made for it. As root it needs the folder /run/sshd, which
+# its package makes where it is started as a service.
+sshd=$(command -v sshd || ls /usr/sbin/sshd 2>/dev/null)
+if [ -z "$sshd" ] || ! command -v ssh >/dev/null || { [ "$(id -u)" = 0 ] && [ ! -d /run/sshd ]; }; then
+    echo "note: not over ssh: no sshd that can be started (package openssh-server; as root with /run/sshd)"
+    exit $failed
+fi
+mkdir ssh && chmod 700 ssh
+ssh-keygen -q -t ed25519 -N '' -f ssh/host && ssh-keygen -q -t ed25519 -N '' -f ssh/own && cp ssh/own.pub ssh/allowed
+port=$((20000 + $$ % 20000))
+cat >ssh/sshd.conf <<S
+Port $port
+ListenAddress 127.0.0.1
+HostKey $work/ssh/host
+AuthorizedKeysFile $work/ssh/allowed
+PidFile none
+UsePAM no
+StrictModes no
+PasswordAuthentication no
+PermitRootLogin prohibit-password
+MaxStartups 100
+S
+cat >ssh/config <<S
+Host first second
+  HostName 127.0.0.1
+  Port $port
+  IdentityFile $work/ssh/own
+  IdentitiesOnly yes
+  BatchMode yes
+  StrictHostKeyChecking no
+  UserKnownHostsFile $work/ssh/known
+  LogLevel ERROR
+S
+"$sshd" -D -e -f "$work/ssh/sshd.conf" 2>ssh/log.txt &
+server=$!
+trap 'kill $server 2>/dev/null' EXIT
+tries=0
+until ssh -F ssh/config first true 2>ssh/err.txt || [ $tries -ge 40 ] || ! kill -0 $server 2>/dev/null; do
+    sleep 0.1
+    tries=$((tries + 1))
+done
+if ! ssh -F ssh/config first true 2>ssh/err.txt; then
+    echo "note: not over ssh: $(cat ssh/err.txt; tail -1 ssh/log.txt)"
+    exit $failed
+fi
+export PARALLEL_SSH="ssh -F $work/ssh/config" GLINT="$glint"
+"$glint" farm parallel scene.yaml --frames 0..3 --set "$turn" --chunk 1 --sshlogin 'first,second' --folder s -o 's.%04d.png' -q
+expect 'tasks over ssh' 0 '' '' sh s/job.sh
+for frame in 0000 0003; do
+    cmp -s w.$frame.png s.$frame.png && pass "frame $frame over ssh" || fail "frame $frame over ssh"
+done
+[ "$(cut -f2 s/log/parallel.txt | grep -cE '^(first|second)$')" = 4 ] && pass 'on both hosts' || fail "hosts: $(cat s/log/parallel.txt)"
 exit $failed

@@ -62,6 +62,33 @@ done
 expect 'a folder that is taken' 2 - 'holds the plan of a farm' "$glint" farm slurm scene.yaml --chunk 2 --frames 0..3 --set "$turn" --folder 'f slurm'
 expect 'or overwritten' 0 - '4 tasks of 1 frame' "$glint" farm slurm scene.yaml --chunk 1 --frames 0..3 --set "$turn" --folder 'f slurm' --force
 
+# ---- more tasks than an array takes: several arrays, of which each begins at a task of its own
+mkdir fake
+cat >fake/sbatch <<'S'
+#!/bin/sh
+echo "$*" >>"$FAKE_LOG"
+wc -l <"$FAKE_LOG"
+S
+printf '#!/bin/sh\necho "MaxArraySize            = 12"\n' >fake/scontrol
+chmod +x fake/sbatch fake/scontrol
+export FAKE_LOG="$work/fake.log"
+# tasks_of: those of all arrays that were submitted, one a line.
+tasks_of() {
+    sed -n 's/.*--array=\([^ ]*\) .* from \([0-9]*\)$/\2 \1/p' "$FAKE_LOG" | while read -r first indices; do
+        for range in $(echo "$indices" | tr , ' '); do
+            seq "$((first + ${range%-*}))" "$((first + ${range#*-}))"
+        done
+    done
+}
+"$glint" farm slurm scene.yaml --frames 0..29 --tiles 2 --chunk 1 --set "$turn" -o 'o.%d.png' -q >array.sh
+PATH="$PWD/fake:$PATH" sh array.sh >err.txt 2>&1 || fail "arrays: $(cat err.txt)"
+[ "$(tasks_of)" = "$(seq 0 59)" ] && [ "$(grep -c array= "$FAKE_LOG")" = 5 ] && pass 'sixty tasks in arrays of twelve' || fail "arrays: $(cat "$FAKE_LOG")"
+grep -q 'dependency=afterany:1:2:3:4:5 ' "$FAKE_LOG" && pass 'a merge after all of them' || fail 'a merge after all of them'
+[ "$(sed -n 's/.*--array=\([^ ]*\) .*/\1/p' "$FAKE_LOG" | tr ',-' '\n\n' | sort -n | tail -1)" = 11 ] && pass 'indices that Slurm takes' || fail 'indices that Slurm takes'
+: >"$FAKE_LOG"
+PATH="$PWD/fake:$PATH" sh array.sh submit 3,10-13,59 >err.txt 2>&1
+[ "$(tasks_of | tr '\n' ' ')" = '3 10 11 12 13 59 ' ] && pass 'a list over several arrays' || fail "a list: $(cat "$FAKE_LOG")"
+
 # ---- manifests: each document by our schema of the fields that are used (tests/farm/job.schema.json)
 for more in '' '--tiles 3' '--tiles 2 --gpus --image registry/glint:1'; do
     # shellcheck disable=SC2086
