@@ -86,6 +86,19 @@ void strbuf_markup(struct strbuf *buffer, str s) {
     }
 }
 
+void strbuf_base64(struct strbuf *buffer, str bytes) {
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const unsigned char *p = (const unsigned char *)bytes.ptr;
+    for (size_t i = 0; i < bytes.len; i += 3) {
+        const size_t left = bytes.len - i;
+        const uint32_t word =
+            (uint32_t)p[i] << 16 | (left > 1 ? (uint32_t)p[i + 1] << 8 : 0) | (left > 2 ? p[i + 2] : 0u);
+        const char text[4] = {digits[word >> 18], digits[word >> 12 & 63],
+                              left > 1 ? digits[word >> 6 & 63] : '=', left > 2 ? digits[word & 63] : '='};
+        strbuf_add(buffer, text, sizeof text);
+    }
+}
+
 void strbuf_repeat(struct strbuf *buffer, char c, size_t count) {
     if (!reserve(buffer, count))
         return;

@@ -141,25 +141,11 @@ static void hits_table(const struct tradeoff *t, struct strbuf *out) {
 
 // ---- pictures
 
-// RFC 4648.
-static void base64(struct strbuf *out, const struct strbuf *bytes) {
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const unsigned char *p = (const unsigned char *)bytes->data;
-    for (size_t i = 0; i < bytes->len; i += 3) {
-        const size_t left = bytes->len - i;
-        const uint32_t word =
-            (uint32_t)p[i] << 16 | (left > 1 ? (uint32_t)p[i + 1] << 8 : 0) | (left > 2 ? p[i + 2] : 0u);
-        const char text[4] = {digits[word >> 18], digits[word >> 12 & 63],
-                              left > 1 ? digits[word >> 6 & 63] : '=', left > 2 ? digits[word & 63] : '='};
-        strbuf_add(out, text, sizeof text);
-    }
-}
-
 static void picture(struct strbuf *out, const struct strbuf *png, const char *what) {
     if (!png->len)
         return;
     strbuf_format(out, "<img alt=\"%s\" title=\"%s\" src=\"data:image/png;base64,", what, what);
-    base64(out, png);
+    strbuf_base64(out, strbuf_view(png));
     strbuf_cstr(out, "\"> ");
 }
 
