@@ -38,7 +38,7 @@ static void apply_policy(void *context) {
 
 // Whether a file only holds things for others to use: nothing could be seen in its picture, neither a body
 // nor a background, but it defines materials, cameras or lights.
-static bool is_library(const struct ir_scene *scene) {
+bool check_is_library(const struct ir_scene *scene) {
     return ir_body_count(scene) == 0 && !scene->background.head.written &&
            scene->materials.count + scene->cameras.count + scene->lights.count > 0;
 }
@@ -55,7 +55,7 @@ static void note_view(struct session *session) {
         return;
     if (!session_view(session, 0, &view))
         shot_no_memory(session, "the view"); // as rendering says
-    if (is_library(session->scene))
+    if (check_is_library(session->scene))
         diag_filter(&session->sink, is_not_about_view, NULL);
 }
 

@@ -14,6 +14,9 @@
 // it.
 enum session_state check_scene(struct session *session, const struct session_options *options,
                                struct asset_store *store);
+// Whether a scene only holds things for others to use: neither a body nor a background, but materials,
+// cameras or lights.
+bool check_is_library(const struct ir_scene *scene);
 // Whether the findings make the run fail.
 bool check_failed(const struct session *session);
 

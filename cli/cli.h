@@ -7,6 +7,7 @@
 #include "cli/options/options_batch.h"
 #include "cli/options/options_farm.h"
 #include "cli/options/options_part.h"
+#include "cli/options/options_test.h"
 #include "cli/options/words.h"
 #include "cli/options_measure.h"
 #include "core/limits.h"
@@ -90,6 +91,7 @@ struct cli_options {
     struct cli_part part;
     struct cli_batch batch;
     struct cli_farm farm;
+    struct cli_test test;
     enum cli_stats stats;
     bool quiet, verbose, ir, help, limit_help, version;
     bool as_file, no_cache; // of the reference
@@ -265,6 +267,7 @@ int cmd_merge(struct cli *cli);
 int cmd_farm(struct cli *cli);
 int cmd_tradeoff(struct cli *cli);
 int cmd_verify(struct cli *cli);
+int cmd_test(struct cli *cli);
 int cmd_pick(struct cli *cli);
 int cmd_extremes(struct cli *cli);
 int cmd_extremes_random(struct cli *cli); // where --random was given

@@ -128,6 +128,14 @@ static const struct cli_command commands[] = {
      "  glint verify picture.png\n"
      "  glint verify picture.png scenes/moved.glint.yaml\n",
      1, 2, cmd_verify},
+    {"test", "FOLDER", "render the scenes of a folder again, and compare with their pictures",
+     "A scene's picture is beside it, or in a folder 'pictures', and has its name: hall.png of\n"
+     "hall.glint.yaml. glint-test.yaml in FOLDER says how pictures are rendered and how far they may be\n"
+     "from their references (docs/test.md). --format is text or json. The exit status is 1 if a picture is\n"
+     "missing or not within its bounds.\n\n"
+     "  glint test scenes --bless             # writes the pictures that are missing, or wrong\n"
+     "  glint test scenes --html report.html --junit report.xml\n",
+     1, 1, cmd_test},
     {"merge", "OUT PART...", "join parts of a picture",
      "PARTs are files that 'glint render -o NAME.part' wrote with --region, --tile, --samples-from and\n"
      "--samples-to, in any order. They must be of one scene, size and settings, and each pixel and sample\n"

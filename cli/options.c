@@ -61,6 +61,7 @@ enum option_id {
     OPTION_MEASURE = 2000, // and enum cli_measure_option after it
     OPTION_PART = 2500,    // and enum cli_part_option after it
     OPTION_FARM = 3000,    // and enum cli_farm_option after it
+    OPTION_TEST = 3500,    // and enum cli_test_option after it
 };
 
 struct option_row {
@@ -124,24 +125,24 @@ static const struct option_row rows[] = {
      "the camera to look through; 'all' writes OUT.NAME.png for each"},
     {OPTION_SET, "set", 0, "PATH=VALUE ...", "render view pick check inspect deps tradeoff extremes farm",
      "change one value of the scene: materials.glass.refractive_index=1.6; a later one counts"},
-    {OPTION_DEVICE, "device", 0, "NAME|N", "render view verify pick tradeoff extremes farm",
+    {OPTION_DEVICE, "device", 0, "NAME|N", "render view verify test pick tradeoff extremes farm",
      "the device to render on, see 'glint devices'; 'reference' is the tracer in double precision; also "
      "GLINT_DEVICE"},
     {OPTION_AS_FILE, "as-file", 0, NULL, "render",
      "the reference obeys max_depth, min_weight and depth_limit of the scene"},
-    {OPTION_NO_CACHE, "no-cache", 0, NULL, "render tradeoff",
+    {OPTION_NO_CACHE, "no-cache", 0, NULL, "render test tradeoff",
      "neither read nor write the cache of the reference and of searches"},
     {OPTION_SKIP_PIXELS, "skip-pixels", 0, NULL, "check inspect",
      "read only the headers of images, which is faster; damaged pixels are not found"},
     {OPTION_ASSET_PATH, "asset-path", 0, "DIR ...",
-     "render view verify pick check inspect convert deps pack tradeoff extremes import farm",
+     "render view verify test pick check inspect convert deps pack tradeoff extremes import farm",
      "another folder in which to look for files of the scene"},
     {OPTION_LIMIT, "limit", 0, "NAME=VALUE ...",
-     "render view verify pick check inspect format diff convert deps pack compare tradeoff extremes lsp "
+     "render view verify test pick check inspect format diff convert deps pack compare tradeoff extremes lsp "
      "import",
      "change a limit on the size of inputs; '--limit help' lists them"},
     {OPTION_CONFIG, "config", 0, "FILE",
-     "render view verify pick check inspect format diff convert deps pack compare tradeoff extremes lsp "
+     "render view verify test pick check inspect format diff convert deps pack compare tradeoff extremes lsp "
      "import",
      "settings, written as in .glintrc.yaml, that override those beside the scenes, and may raise limits"},
     {OPTION_REPEAT, "repeat", 0, "N", "render",
@@ -149,6 +150,7 @@ static const struct option_row rows[] = {
 #include "cli/options/options_batch.def"
 #include "cli/options/options_farm.def"
 #include "cli/options/options_part.def"
+#include "cli/options/options_test.def"
     {OPTION_WATCH, "watch", 0, NULL, "render",
      "render again each time the scene, or a file that it reads, is saved; ends with Ctrl-C"},
     {OPTION_STATS, "stats", 0, "[=json]", "render",
@@ -162,12 +164,13 @@ static const struct option_row rows[] = {
      "say at most what share of the picture's pixels is off, in the file too; --stats does so as well"},
     {OPTION_MEASURE + CLI_MEASURE_MAX_OFF, "max-off", 0, "X", "render",
      "fail if more than this share of the pixels is off; the audit goes on until it is sure"},
-    {OPTION_QUIET, "quiet", 'q', NULL, "render merge view extremes check tradeoff import farm",
+    {OPTION_QUIET, "quiet", 'q', NULL, "render merge view test extremes check tradeoff import farm",
      "show only errors and warnings: no notes, no progress"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "check", "show notes too"},
     {OPTION_VERBOSE, "verbose", 'v', NULL, "extremes",
      "list all random scenes, not only those that are not right, and --keep all"},
-    {OPTION_FORMAT, "format", 0, "KIND", "check inspect compare verify tradeoff extremes pick diff deps farm",
+    {OPTION_FORMAT, "format", 0, "KIND",
+     "check inspect compare verify test tradeoff extremes pick diff deps farm",
      "the format of the report; the text above lists the kinds"},
     {OPTION_POLICY + CLI_POLICY_SEVERITY, "severity", 0, "CODE=LEVEL ...", "check",
      "change the severity of a code: error, warning, note or off"},
@@ -422,6 +425,8 @@ static bool apply_value(struct cli *cli, int arg, int id, const char *value) {
 static bool apply(struct cli *cli, int arg, const struct option_row *row, const char *value) {
     if (row->id >= OPTION_POLICY && row->id < OPTION_MEASURE)
         return cli_policy_apply(cli, arg, (enum cli_policy_option)(row->id - OPTION_POLICY), value);
+    if (row->id >= OPTION_TEST)
+        return cli_test_apply(cli, arg, (enum cli_test_option)(row->id - OPTION_TEST), value);
     if (row->id >= OPTION_FARM)
         return cli_farm_apply(cli, arg, (enum cli_farm_option)(row->id - OPTION_FARM), value);
     if (row->id >= OPTION_PART)

@@ -87,11 +87,11 @@ void strbuf_markup(struct strbuf *buffer, str s) {
     }
 }
 
-void strbuf_base64(struct strbuf *buffer, const void *bytes, size_t count) {
+void strbuf_base64(struct strbuf *buffer, str bytes) {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const unsigned char *p = bytes;
-    for (size_t i = 0; i < count; i += 3) {
-        const size_t left = count - i;
+    const unsigned char *p = (const unsigned char *)bytes.ptr;
+    for (size_t i = 0; i < bytes.len; i += 3) {
+        const size_t left = bytes.len - i;
         const uint32_t word =
             (uint32_t)p[i] << 16 | (left > 1 ? (uint32_t)p[i + 1] << 8 : 0) | (left > 2 ? p[i + 2] : 0u);
         const char text[4] = {digits[word >> 18], digits[word >> 12 & 63],

@@ -1,28 +1,5 @@
 // JUnit's XML: a test case per scene, for tools that show test results.
 #include "diag/diag_report_text.h"
-#include "diag/diag_text.h"
-
-// Text for XML 1.0, which allows no control character, escaped or not, and neither U+FFFE nor U+FFFF, which
-// are valid in UTF-8.
-static void plain(struct strbuf *out, str s) {
-    struct strbuf text;
-    strbuf_init(&text);
-    diag_text_plain(&text, s);
-    str view = strbuf_view(&text);
-    size_t from = 0;
-    for (size_t at = 0; at + 3 <= view.len; at++) {
-        bool none = (unsigned char)view.ptr[at] == 0xEF && (unsigned char)view.ptr[at + 1] == 0xBF &&
-                    (unsigned char)view.ptr[at + 2] >= 0xBE;
-        if (!none)
-            continue;
-        strbuf_markup(out, str_slice(view, from, at));
-        strbuf_char(out, '?');
-        from = at + 3;
-    }
-    strbuf_markup(out, str_slice(view, from, view.len));
-    out->failed = out->failed || text.failed;
-    strbuf_finish(&text);
-}
 
 static void lines(struct strbuf *out, const struct report_scene *scene) {
     struct strbuf line;
@@ -30,11 +7,11 @@ static void lines(struct strbuf *out, const struct report_scene *scene) {
     for (uint32_t i = 0; i < scene->findings.count; i++) {
         strbuf_clear(&line);
         report_line(&line, &scene->findings.items[i]);
-        plain(out, strbuf_view(&line));
+        report_markup(out, strbuf_view(&line));
         strbuf_char(out, '\n');
         if (scene->findings.items[i].help.len) {
             strbuf_cstr(out, "    help: ");
-            plain(out, scene->findings.items[i].help);
+            report_markup(out, scene->findings.items[i].help);
             strbuf_char(out, '\n');
         }
     }
@@ -64,9 +41,9 @@ static void fault(struct strbuf *out, const struct report_scene *scene, const ch
 
 static void test_case(struct strbuf *out, const struct report_scene *scene) {
     strbuf_cstr(out, "    <testcase classname=\"glint.check\" name=\"");
-    plain(out, scene->path);
+    report_markup(out, scene->path);
     strbuf_cstr(out, "\" file=\"");
-    plain(out, scene->path);
+    report_markup(out, scene->path);
     strbuf_cstr(out, "\" time=\"0\">\n");
     if (scene->state == REPORT_FAILED)
         fault(out, scene, "failure");

@@ -37,3 +37,23 @@ void report_counts(struct strbuf *out, uint32_t errors, uint32_t warnings, uint3
 const char *report_severity(const struct report_finding *finding) {
     return diag_severity_name(finding->severity);
 }
+
+void report_markup(struct strbuf *out, str s) {
+    struct strbuf text;
+    strbuf_init(&text);
+    diag_text_plain(&text, s);
+    str view = strbuf_view(&text);
+    size_t from = 0;
+    for (size_t at = 0; at + 3 <= view.len; at++) {
+        bool none = (unsigned char)view.ptr[at] == 0xEF && (unsigned char)view.ptr[at + 1] == 0xBF &&
+                    (unsigned char)view.ptr[at + 2] >= 0xBE;
+        if (!none)
+            continue;
+        strbuf_markup(out, str_slice(view, from, at));
+        strbuf_char(out, '?');
+        from = at + 3;
+    }
+    strbuf_markup(out, str_slice(view, from, view.len));
+    out->failed = out->failed || text.failed;
+    strbuf_finish(&text);
+}

@@ -1,4 +1,4 @@
-// What the formats of a report share. Private to core/diag_report_*.c. Thread safety: pure.
+// What the formats of a report share. Thread safety: pure.
 #ifndef GLINT_DIAG_DIAG_REPORT_TEXT_H
 #define GLINT_DIAG_DIAG_REPORT_TEXT_H
 
@@ -10,6 +10,9 @@ void report_line(struct strbuf *out, const struct report_finding *finding);
 void report_left_out(struct strbuf *out, const struct report_scene *scene);
 // "2 errors, 1 warning"
 void report_counts(struct strbuf *out, uint32_t errors, uint32_t warnings, uint32_t notes);
+// Text for XML 1.0, which allows no control character, escaped or not, and neither U+FFFE nor U+FFFF, which
+// are valid in UTF-8: each becomes '?'.
+void report_markup(struct strbuf *out, str s);
 // "error", "warning", "note".
 const char *report_severity(const struct report_finding *finding);
 

@@ -211,7 +211,7 @@ static json_t *picture_of(const struct server_preview *p) {
     struct strbuf uri;
     strbuf_init(&uri);
     strbuf_cstr(&uri, "data:image/png;base64,");
-    strbuf_base64(&uri, picture->png.data, picture->png.len);
+    strbuf_base64(&uri, strbuf_view(&picture->png));
     json_t *text = uri.failed ? NULL : json_stringn_nocheck(uri.data, uri.len);
     strbuf_finish(&uri);
     if (!text)

@@ -5,6 +5,8 @@
 #include "core/limits.h"
 #include "diag/diag_policy.h"
 
+#include <math.h>
+
 // From this depth on all is on one line.
 enum {
     FLAT_DEPTH = 4
@@ -38,6 +40,45 @@ static void put_range(struct json_writer *json, uint64_t least, uint64_t greates
 }
 
 static void put_lines(struct json_writer *json, const struct key_table *table);
+
+// The same of the file of `glint test`.
+static void put_test_value(struct json_writer *json, const struct key_row *row) {
+    switch (row->value) {
+    case KEY_SIZE:
+        put_word(json, "type", "string");
+        put_word(json, "pattern", "^[1-9][0-9]*x[1-9][0-9]*$");
+        break;
+    case KEY_ASSIGNMENT:
+        put_word(json, "type", "string");
+        put_word(json, "pattern", "=");
+        break;
+    case KEY_PATH:
+    case KEY_PATTERN:
+    case KEY_CAMERA:
+    case KEY_DEVICE:
+        put_word(json, "type", "string");
+        json_write_integer(json, "minLength", 1);
+        break;
+    case KEY_TEST_BOUNDS:
+        put_word(json, "$ref", "#/definitions/bounds");
+        break;
+    case KEY_TEST_PICTURE:
+        json_open_object(json, "additionalProperties");
+        put_word(json, "$ref", "#/definitions/picture");
+        json_close_object(json);
+        break;
+    case KEY_METRIC:
+    case KEY_THRESHOLD:
+    case KEY_PIXELS:
+        put_word(json, "type", "number");
+        json_write_real(json, "minimum", row->least);
+        if (row->greatest < HUGE_VAL)
+            json_write_real(json, "maximum", row->greatest);
+        break;
+    default:
+        break;
+    }
+}
 
 // What one value must be; of a map, what its pairs must be.
 static void put_value(struct json_writer *json, const struct key_row *row) {
@@ -83,6 +124,9 @@ static void put_value(struct json_writer *json, const struct key_row *row) {
     case KEY_BOUND:
         put_word(json, "type", "number");
         json_write_real(json, "minimum", row->least);
+        break;
+    default:
+        put_test_value(json, row);
         break;
     }
 }
@@ -149,6 +193,29 @@ void key_schema_bounds(struct strbuf *out) {
     json_close_object(&json);
     json_close_object(&json);
     put_properties(&json, &AXIS_KEYS);
+    json_close_object(&json);
+    json_end(&json);
+}
+
+void key_schema_tests(struct strbuf *out) {
+    struct json_writer json;
+    open_file(&json, out, "Pictures of glint test: glint-test.yaml",
+              "How pictures are rendered and how far they may be from their references. docs/test.md tells "
+              "more.");
+    json_open_object(&json, "definitions");
+    json_open_object(&json, "bounds");
+    put_word(&json, "type", "object");
+    put_lines(&json, &TEST_BOUND_KEYS);
+    json_close_object(&json);
+    json_open_object(&json, "picture");
+    json_open_list(&json, "type");
+    put_word(&json, NULL, "object");
+    put_word(&json, NULL, "null");
+    json_close_list(&json);
+    put_lines(&json, &TEST_PICTURE_KEYS);
+    json_close_object(&json);
+    json_close_object(&json);
+    put_properties(&json, &TEST_KEYS);
     json_close_object(&json);
     json_end(&json);
 }

@@ -9,5 +9,7 @@
 void key_schema_settings(struct strbuf *out);
 // docs/schema/bounds.schema.json
 void key_schema_bounds(struct strbuf *out);
+// docs/schema/test.schema.json
+void key_schema_tests(struct strbuf *out);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include "core/limits.h"
 #include "measure/extremes/extremes.h"
+#include "picture/metrics/metrics.h"
 
 #include <math.h>
 
@@ -89,6 +90,113 @@ static const struct key_row bounds[] = {
 #undef X
 };
 const struct key_table BOUND_KEYS = {"metric", bounds, sizeof bounds / sizeof *bounds};
+
+// ---- glint test
+
+#define PICTURE_SETTINGS                                                                                     \
+    {.name = "camera",                                                                                       \
+     .value = KEY_CAMERA,                                                                                    \
+     .form = "the name of a camera",                                                                         \
+     .example = "camera: side",                                                                              \
+     .doc = "The camera to look through, instead of the scene's first."},                                    \
+        {.name = "size",                                                                                     \
+         .value = KEY_SIZE,                                                                                  \
+         .form = "a width and a height from 1 to 16384",                                                     \
+         .example = "size: 320x240",                                                                         \
+         .least = 1,                                                                                         \
+         .greatest = 16384,                                                                                  \
+         .doc = "Size of the picture in pixels, instead of the scene's."},                                   \
+        {.name = "samples",                                                                                  \
+         .value = KEY_WHOLE_NUMBER,                                                                          \
+         .form = "a whole number from 1 to 4096",                                                            \
+         .example = "samples: 4",                                                                            \
+         .least = 1,                                                                                         \
+         .greatest = 4096,                                                                                   \
+         .doc = "Rays through each pixel, instead of the scene's."},                                         \
+        {.name = "device",                                                                                   \
+         .value = KEY_DEVICE,                                                                                \
+         .form = "the name of a device",                                                                     \
+         .example = "device: reference",                                                                     \
+         .doc = "The device to render on; 'reference' is the tracer in double precision. --device is over "  \
+                "it."},                                                                                      \
+        {.name = "set",                                                                                      \
+         .shape = KEY_LIST,                                                                                  \
+         .value = KEY_ASSIGNMENT,                                                                            \
+         .form = "a list of texts PATH=VALUE",                                                               \
+         .example = "set: [materials.glass.refractive_index=1.6]",                                           \
+         .doc = "Values of the scene to change, as with --set."},                                            \
+    {                                                                                                        \
+        .name = "bounds", .value = KEY_TEST_BOUNDS, .form = "a map from metrics to numbers",                 \
+        .example = "bounds: {share: 0.01}",                                                                  \
+        .doc = "How far a picture may be from its reference. A metric that is not named keeps its bound."    \
+    }
+
+static const struct key_row test_rows[] = {
+    {.name = "pictures",
+     .value = KEY_FOLDER,
+     .form = "a folder",
+     .example = "pictures: references",
+     .doc = "The folder of the reference pictures, relative to this file, instead of beside each scene or in "
+            "a folder 'pictures' there."},
+    PICTURE_SETTINGS,
+    {.name = "skip",
+     .shape = KEY_LIST,
+     .value = KEY_PATTERN,
+     .form = "a list of paths",
+     .example = "skip: [\"drafts/**\"]",
+     .doc = "Patterns of scenes that have no picture: * and ? within one folder, ** across folders."},
+    {.name = "tests",
+     .shape = KEY_MAP,
+     .value = KEY_TEST_PICTURE,
+     .form = "a map from pictures to their settings",
+     .example = "tests: {side.png: {scene: hall.glint.yaml, camera: side}}",
+     .doc = "Pictures with settings of their own, by their paths in the folder of pictures."},
+};
+const struct key_table TEST_KEYS = {"setting", test_rows, sizeof test_rows / sizeof *test_rows};
+
+static const struct key_row test_pictures[] = {
+    {.name = "scene",
+     .value = KEY_PATH,
+     .form = "the path of a scene",
+     .example = "scene: hall.glint.yaml",
+     .doc = "The scene, relative to this file; without it, the scene whose name the picture has."},
+    PICTURE_SETTINGS,
+};
+const struct key_table TEST_PICTURE_KEYS = {"setting of a picture", test_pictures,
+                                            sizeof test_pictures / sizeof *test_pictures};
+
+#define METRIC_ROW(text, index, from, to, range, words)                                                      \
+    {                                                                                                        \
+        .name = text, .value = KEY_METRIC, .form = range, .least = from, .greatest = to, .offset = index,    \
+        .doc = words                                                                                         \
+    }
+static const struct key_row test_bounds[] = {
+    METRIC_ROW("mae", METRIC_MAE, 0, HUGE_VAL, "a number of 0 or more", "At most: the mean difference."),
+    METRIC_ROW("rmse", METRIC_RMSE, 0, HUGE_VAL, "a number of 0 or more",
+               "At most: the root of the mean squared difference."),
+    METRIC_ROW("relmse", METRIC_RELMSE, 0, HUGE_VAL, "a number of 0 or more",
+               "At most: the relative mean squared difference."),
+    METRIC_ROW("largest", METRIC_LARGEST, 0, HUGE_VAL, "a number of 0 or more",
+               "At most: the largest difference of a channel."),
+    METRIC_ROW("psnr", METRIC_PSNR, 0, HUGE_VAL, "a number of 0 or more",
+               "At least: the signal to noise ratio in dB."),
+    METRIC_ROW("ssim", METRIC_SSIM, -1, 1, "a number from -1 to 1", "At least: the structural similarity."),
+    METRIC_ROW("flip", METRIC_FLIP, 0, 1, "a number from 0 to 1", "At most: the mean of FLIP."),
+    METRIC_ROW("share", METRIC_SHARE, 0, 1, "a number from 0 to 1",
+               "At most: the share of the pixels that are off by more than the threshold."),
+    {.name = "threshold",
+     .value = KEY_THRESHOLD,
+     .form = "a number from 0 to 1",
+     .greatest = 1,
+     .doc = "From which difference of a channel a pixel is off, of displayed values from 0 to 1; 2/255 "
+            "without it."},
+    {.name = "not_finite",
+     .value = KEY_PIXELS,
+     .form = "a number of 0 or more",
+     .greatest = 1e9,
+     .doc = "How many pixels may be infinite or not a number in one of the two float pictures only."},
+};
+const struct key_table TEST_BOUND_KEYS = {"metric", test_bounds, sizeof test_bounds / sizeof *test_bounds};
 
 const struct key_row *key_find(const struct key_table *table, str name, struct nearest *search) {
     *search = nearest_begin(name);

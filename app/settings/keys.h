@@ -29,6 +29,18 @@ enum key_value {
     KEY_AXIS_BOUNDS,  // of a list: the bounds of an axis
     KEY_FROM_TO,      // a number from `least`, where a bound begins or ends
     KEY_BOUND,        // likewise, the most that a metric may be
+    // Of the file of `glint test`:
+    KEY_PATH,         // of a scene
+    KEY_PATTERN,      // of paths
+    KEY_CAMERA,       // its name
+    KEY_DEVICE,       // its name
+    KEY_SIZE,         // "320x240", each from `least` to `greatest`
+    KEY_ASSIGNMENT,   // PATH=VALUE
+    KEY_TEST_BOUNDS,  // a map of TEST_BOUND_KEYS
+    KEY_TEST_PICTURE, // of a map: from pictures to TEST_PICTURE_KEYS
+    KEY_METRIC,       // a number, `least` to `greatest`: what the metric `offset` may be
+    KEY_THRESHOLD,    // likewise, of a share
+    KEY_PIXELS,       // likewise, how many
 };
 
 struct key_row {
@@ -39,7 +51,7 @@ struct key_row {
     const char *example;
     double least, greatest; // of numbers
     uint32_t axes;          // KEY_AXIS_BOUNDS: bit 1 << axis
-    uint32_t offset;        // of the number in struct extreme_bound
+    uint32_t offset;        // of the number in struct extreme_bound; KEY_METRIC: enum metric
     const char *doc;
 };
 
@@ -52,8 +64,11 @@ struct key_table {
 extern const struct key_table SETTING_KEYS; // of .glintrc.yaml
 extern const struct key_table
     LIMIT_KEYS; // of it too, in the order of enum limit: from the least to the default
-extern const struct key_table AXIS_KEYS;  // of a file of bounds
-extern const struct key_table BOUND_KEYS; // of one bound
+extern const struct key_table AXIS_KEYS;         // of a file of bounds
+extern const struct key_table BOUND_KEYS;        // of one bound
+extern const struct key_table TEST_KEYS;         // of glint-test.yaml
+extern const struct key_table TEST_PICTURE_KEYS; // of one picture in it
+extern const struct key_table TEST_BOUND_KEYS;   // of its bounds
 
 // The row of a name; if it is NULL, `search` holds the nearest one.
 const struct key_row *key_find(const struct key_table *table, str name, struct nearest *search);

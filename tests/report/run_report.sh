@@ -369,6 +369,8 @@ for limit in $("$glint" check --limit help | sed 's/ .*//'); do
 done
 ok "the default bounds of extremes, by their schema" \
     "$tool" validate-yaml "$source/docs/schema/bounds.schema.json" "$source/measure/extremes/extremes.yaml"
+ok "the tests of the scenes that ship, by their schema" \
+    "$tool" validate-yaml "$source/docs/schema/test.schema.json" "$source/scenes/glint-test.yaml"
 
 # ---- comments
 line='  - {mesh: open.obj, material: {albedo: [0.1, 0, 0, 0.9], refractive_index: 1.5}}'

@@ -62,6 +62,15 @@ json verify_device 0 "$glint" verify moved.hdr --device reference --format json
 by_schema verify verify.json verify_changed.json verify_device.json
 json inspect 0 "$glint" inspect made.hdr --format json
 json inspect_none 0 "$glint" inspect exact.pfm --format json
+mkdir tested
+cp scene.yaml tested/a.glint.yaml && cp -r meshes parts.yaml tested/ && cp tested/a.glint.yaml tested/b.glint.yaml
+printf 'pictures: refs\ntests:\n  c.png: {scene: a.glint.yaml, camera: main, bounds: {flip: 0.1, ssim: 0.9}}\n' >tested/glint-test.yaml
+sed -i 's/^camera: .*/cameras: {main: {position: [0, 0, 6]}}/' tested/a.glint.yaml
+json test_bless 0 "$glint" test tested --format json --bless --device reference
+cp tested/refs/c.png tested/refs/unused.png
+sed -i 's/radius: 0.9/radius: 0.8/' tested/a.glint.yaml
+json test_changed 1 "$glint" test tested --format json --device reference
+by_schema test test_bless.json test_changed.json
 by_schema inspect inspect.json inspect_none.json
 
 json pick_reference 0 "$glint" pick scene.yaml 8,8 --format json --device reference

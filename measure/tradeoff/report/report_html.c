@@ -145,7 +145,7 @@ static void picture(struct strbuf *out, const struct strbuf *png, const char *wh
     if (!png->len)
         return;
     strbuf_format(out, "<img alt=\"%s\" title=\"%s\" src=\"data:image/png;base64,", what, what);
-    strbuf_base64(out, png->data, png->len);
+    strbuf_base64(out, strbuf_view(png));
     strbuf_cstr(out, "\"> ");
 }
 

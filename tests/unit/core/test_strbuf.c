@@ -48,7 +48,7 @@ static void codes_bytes_as_text(void **state) {
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i += 2) {
         struct strbuf buffer;
         strbuf_init(&buffer);
-        strbuf_base64(&buffer, texts[i], strlen(texts[i]));
+        strbuf_base64(&buffer, str_from(texts[i]));
         assert_string_equal(strbuf_view(&buffer).ptr, texts[i + 1]);
         strbuf_finish(&buffer);
     }

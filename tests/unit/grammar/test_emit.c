@@ -54,6 +54,7 @@ static void test_committed_files_are_fresh(void **state) {
     assert_fresh(dictionary_write, "tests/fuzz/glint.dict");
     assert_fresh(key_schema_settings, "docs/schema/glintrc.schema.json");
     assert_fresh(key_schema_bounds, "docs/schema/bounds.schema.json");
+    assert_fresh(key_schema_tests, "docs/schema/test.schema.json");
 }
 
 // ---- JSON Schema
