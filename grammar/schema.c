@@ -63,8 +63,8 @@ static const struct schema_row image_rows[] = {
     {.name = "error", FIELD(ir_image, error), .example = "0.01", .range = SCHEMA_RANGE_FRACTION,
      .also = "noise noise_threshold adaptive adaptive_sampling adaptive_threshold max_error",
      .standard = "0",
-     .doc = "A pixel takes no more samples once the standard error of its displayed colour is at most this; `samples` "
-            "is then the most that it takes. 0: all pixels take all samples."},
+     .doc = "A pixel takes no more samples once the error of its displayed colour is at most this, 95 % sure; "
+            "`samples` is then the most that it takes. 0: all pixels take all samples."},
     {.name = "min_samples", FIELD(ir_image, min_samples), .example = "8", .range = SCHEMA_RANGE_SAMPLES,
      .also = "samples_min min_spp",
      .standard = "16", .doc = "Samples that a pixel takes before `error` may end it."},

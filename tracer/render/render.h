@@ -53,8 +53,9 @@ struct render_settings {
     uint32_t workgroup;                  // invocations of a workgroup, at most 128; 0: a tile's
     uint32_t band_tiles;                 // most tiles of 8x8 pixels in a band; 0: as many as its memory holds
     uint32_t dispatch_paths;             // most paths of a dispatch; 0: as many as are over soon
-    // More than 0: a pixel ends before it has all its samples where the standard error of its displayed
-    // colour is at most this, 0..1, but not before it has `least_samples` (at least 4; rounded up to fours).
+    // More than 0: a pixel ends before it has all its samples where the error of its displayed colour, 95 %
+    // sure over a tile, is at most this, 0..1, but not before it has `least_samples` (at least 4; rounded up
+    // to fours).
     double error;
     uint32_t least_samples;
     // How colours are displayed: `shown` gets 0..1. Needed where `error` is.
@@ -109,7 +110,7 @@ struct render_statistics {
 #define RENDER_ESTIMATE_CONFIDENCE 0.95
 // What a picture whose pixels end by their error says of itself, as displayed, 0..1.
 struct render_estimate {
-    float *error;      // by pixel, rows from the top: the standard error
+    float *error;      // by pixel, rows from the top: what ended the pixel, or would have
     uint32_t *samples; // that it has
     uint32_t unknown;  // pixels that are not finite: their error is NaN, and not in the following
     double mean;       // root of the mean square of the error of all pixels and channels

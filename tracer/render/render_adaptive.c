@@ -3,9 +3,9 @@
 // A pixel's samples are taken in rounds, and of each round a quarter goes to each of four groups. The means
 // of the groups differ by what each of them has wrong: the variance of those four, over four, is that of
 // their mean. Points of a good sequence err less together than apart, so that it is rather too large than too
-// small. A pixel goes on where its own error or that of the 3 x 3 pixels around it, within its tile, is above
-// the bound: so pixels that look even by chance go on with their neighbours, and what a pixel does depends on
-// nothing outside its tile.
+// small. A pixel goes on where its own error, that of the 3 x 3 pixels around it within its tile, or what is
+// rare in the tile is above the bound: so pixels that look even by chance go on with their neighbours, and
+// what a pixel does depends on nothing outside its tile.
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "tracer/render/render_private.h"
@@ -21,6 +21,14 @@ enum {
 };
 // One-sided, of the normal distribution.
 static const double SURE = 1.645;
+
+// Of a tile's error alone, squared, in the mean of its variances: that is above its own square by
+// 1.645 sqrt(2 + 2 / 3) of it in one of twenty tiles (conclude).
+static const double TILE_SURE = 3.686;
+
+// How many times as large a variance that stands alone is as the mean of its neighbours': at an edge two of
+// eight are like it.
+static const float ALONE = 6;
 
 // What is known of the pixels of a band, by slot.
 struct band {
@@ -158,31 +166,59 @@ static int slot_in_tile(int x, int y) {
     return (x & 1) | (y & 1) << 1 | (x & 2) << 1 | (y & 2) << 2 | (x & 4) << 2 | (y & 4) << 3;
 }
 
-// The greater one of the pixel's own variance and the mean of those around it; pixels outside the picture
-// have NaN, and those that are not finite.
-static float pooled(const float *variance, int x, int y) {
-    float sum = 0;
-    int count = 0;
+// Of the variances around a pixel, within its tile; pixels outside the picture have NaN, and those that are
+// not finite.
+struct around {
+    float sum;
+    int count;
+};
+
+static struct around look_around(const float *variance, int x, int y) {
+    struct around around = {0, 0};
     for (int j = y > 0 ? y - 1 : 0; j <= y + 1 && j < TILE_SIDE; j++)
         for (int i = x > 0 ? x - 1 : 0; i <= x + 1 && i < TILE_SIDE; i++) {
             const float v = variance[slot_in_tile(i, j)];
-            sum += isnan(v) ? 0 : v;
-            count += !isnan(v);
+            around.sum += isnan(v) ? 0 : v;
+            around.count += !isnan(v);
         }
-    const float own = variance[slot_in_tile(x, y)], mean = sum / (float)count;
-    return own > mean ? own : mean;
+    return around;
+}
+
+// What is bright and seldom hit shows in a few pixels of a tile, and could have in the others as well: the
+// mean over the tile of the variances that stand out alone.
+static float rare_of_tile(const float *variance) {
+    float sum = 0;
+    int count = 0;
+    for (int i = 0; i < TILE_PIXELS; i++) {
+        const float own = variance[slot_in_tile(i % COLUMNS, i / COLUMNS)];
+        if (isnan(own))
+            continue;
+        const struct around around = look_around(variance, i % COLUMNS, i / COLUMNS);
+        const bool alone = own * (float)(around.count - 1) > ALONE * (around.sum - own);
+        sum += alone ? own : 0;
+        count++;
+    }
+    return count ? sum / (float)count : 0;
+}
+
+// The greatest one of the pixel's own variance, the mean of those around it, and what is rare in its tile.
+static float pooled(const float *variance, int x, int y, float rare) {
+    const struct around around = look_around(variance, x, y);
+    return fmaxf(fmaxf(variance[slot_in_tile(x, y)], around.sum / (float)around.count), rare);
 }
 
 static void judge_tiles(void *context, size_t begin, size_t end) {
     const struct band *band = context;
     const double bound = band->run->renderer->settings.error;
-    for (size_t tile = begin; tile < end; tile++)
+    for (size_t tile = begin; tile < end; tile++) {
+        const float *variance = band->variance + tile * TILE_PIXELS, rare = rare_of_tile(variance);
         for (int i = 0; i < TILE_PIXELS; i++) {
-            const size_t slot = tile * TILE_PIXELS + (size_t)slot_in_tile(i % COLUMNS, i / COLUMNS);
-            if (band->goes_on[slot])
-                band->goes_on[slot] = (double)pooled(band->variance + tile * TILE_PIXELS, i % COLUMNS,
-                                                     i / COLUMNS) > bound * bound;
+            bool *goes_on =
+                &band->goes_on[tile * TILE_PIXELS + (size_t)slot_in_tile(i % COLUMNS, i / COLUMNS)];
+            const float most = pooled(variance, i % COLUMNS, i / COLUMNS, rare);
+            *goes_on = *goes_on && TILE_SURE * (double)most > bound * bound;
         }
+    }
 }
 
 // Those of the list that go on. What is not finite does not get better.
@@ -227,8 +263,8 @@ static void put_pixel(const struct band *band, uint32_t slot, float *rgb) {
         rgb[3 * pixel + (size_t)k] = sound ? sum / (float)band->samples[slot] : NAN;
     }
     const float *tile = band->variance + slot / TILE_PIXELS * TILE_PIXELS;
-    const float most = pooled(tile, (int)(x % TILE_SIDE), (int)(y % TILE_SIDE));
-    renderer->estimate.error[pixel] = sound ? sqrtf(most) : NAN;
+    const float most = pooled(tile, (int)(x % TILE_SIDE), (int)(y % TILE_SIDE), rare_of_tile(tile));
+    renderer->estimate.error[pixel] = sound ? sqrtf((float)TILE_SURE * most) : NAN;
     renderer->estimate.unknown += !sound;
     renderer->estimate.samples[pixel] = band->samples[slot];
 }
