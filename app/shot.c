@@ -115,6 +115,8 @@ static enum shot_status make_renderer(struct opening *opening, struct renderer *
 static enum shot_status open_shot(struct shot *shot, uint32_t camera) {
     struct opening opening = {.shot = shot};
     struct precision_gains gains;
+    if (!CLI_HAS_DEVICES)
+        return SHOT_DEVICE; // there is no gpu to call this with: what follows is left out of the program
     if (!session_view(shot->session, camera, &shot->view))
         return shot_no_memory(shot->session, "the view");
     if (!where_camera_fits(shot->session, camera, &shot->view) ||
@@ -213,6 +215,8 @@ enum shot_status shot_take(struct shot *shot, struct image *image, const struct 
 
 static enum shot_status take(struct shot *shot, struct image *image, const struct render_progress *progress,
                              const struct render_limit *limit, struct render_statistics *statistics) {
+    if (!CLI_HAS_DEVICES)
+        return SHOT_DEVICE;
     const enum render_result result =
         renderer_render_until(shot->renderer, &shot->view.camera, image->rgb, progress, limit, statistics);
     return result == RENDER_DONE ? SHOT_OK : result == RENDER_CANCELLED ? SHOT_CANCELLED : SHOT_DEVICE;

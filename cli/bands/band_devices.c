@@ -31,7 +31,7 @@ struct band_devices {
 
 bool bands_spread(const struct cli *cli) {
     const char *wanted = cli_device_wanted(cli);
-    if (!wanted)
+    if (!wanted || !CLI_HAS_DEVICES)
         return false;
     return strcmp(wanted, "all") == 0 ||
            (strchr(wanted, ',') && wanted[strspn(wanted, "0123456789,")] == '\0');

@@ -211,6 +211,54 @@ const tests = {
     return page;
   },
 
+  async 'settings: what is measured, the front, and the slider'() {
+    const page = await opened('#elements/trace.glint.yaml');
+    await page.until(idle);
+    await page.value("document.getElementById('measure').focus()");
+    await page.key('Enter');
+    await contains(page, "document.getElementById('measured').textContent", 'settings measured');
+    const { points, front } = await page.value('({ points: page.study.points, front: page.study.front })');
+    const at = (samples, depth) => points.find((one) => one.samples === samples && one.depth === depth);
+    const deepest = Math.max(...points.map((one) => one.depth));
+    assert.ok(points.length >= 10 && deepest > 1 && deepest <= 9, JSON.stringify(points));
+    assert.ok(points.every((one) => one.ms > 0 && one.error > 0 && one.error < 1));
+    assert.ok(at(16, deepest).error < at(1, deepest).error, 'more samples are nearer');
+    assert.ok(at(16, 0).error > at(16, deepest).error, 'mirrors need depth');
+    for (const one of front) assert.ok(!points.some((other) => other.ms < one.ms && other.error < one.error), 'no point beats one of the front');
+    for (const one of points) assert.ok(front.some((other) => other.ms <= one.ms && other.error <= one.error), 'each point is beaten by one of the front, or is one');
+    // What it says of a setting is what native commands say of it.
+    const size = ['--size', await page.value('page.study.size')];
+    const draw = (samples, limits, file) => execFileSync(glint, ['render', 'elements/trace.glint.yaml', '--device', 'reference', '--no-cache', '--quiet', ...size, '--samples', samples, ...limits, '-o', file], { cwd: scenes });
+    draw(64, [], path.join(work, 'truth.pfm'));
+    draw(4, ['--as-file', '--set', 'trace.max_depth=0'], path.join(work, 'point.pfm'));
+    const compared = JSON.parse(execFileSync(glint, ['compare', path.join(work, 'point.pfm'), path.join(work, 'truth.pfm'), '--format', 'json'], { encoding: 'utf8' }));
+    assert.ok(Math.abs(at(4, 0).error - compared.metrics.flip.value) < 1e-6, 'the powers of FLIP are those of another library');
+    // By keys: the slider, its words, the picture.
+    await page.value("document.getElementById('setting').focus()");
+    const passes = await page.value('page.stats.passes.length');
+    await page.key('End');
+    const last = front.at(-1);
+    await contains(page, "document.getElementById('chosen').textContent", `depth ${last.depth}: `);
+    assert.strictEqual(await page.value("document.getElementById('paste').textContent"), `image: {samples: ${last.samples}}\ntrace: {max_depth: ${last.depth}}`);
+    assert.ok((await page.value("document.getElementById('setting').getAttribute('aria-valuetext')")).startsWith(`${last.samples} sample`));
+    await page.until(`page.stats.passes.slice(${passes}).some((one) => one.whole)`);
+    await contains(page, "document.getElementById('progress').textContent", `${last.samples} sample`);
+    assert.strictEqual(await page.value("document.querySelectorAll('#points li').length"), front.length);
+    assert.strictEqual(await page.value("document.querySelectorAll('#chart circle').length"), points.length + front.length);
+    await click(page, 'asis');
+    await page.until("document.getElementById('asis').hidden");
+    await page.until(idle);
+    await contains(page, "document.getElementById('progress').textContent", '4 samples');
+    // Another text: what was measured is gone, and a study that is under way ends.
+    await click(page, 'measure');
+    await contains(page, "document.getElementById('measured').textContent", 'Measuring');
+    await cursor(page, 'max_depth: 9', true);
+    await page.key('Backspace');
+    await page.type('8');
+    await page.until("document.getElementById('measured').textContent === '' && document.getElementById('front').hidden && page.study.glint === null");
+    return page;
+  },
+
   async 'links, good and damaged'() {
     const page = await opened('#tutorial/step-2.glint.yaml');
     await cursor(page, 'glint: 1', true);
@@ -359,12 +407,14 @@ const tests = {
         await page.key('Tab');
         reached.add(await page.value("document.activeElement.id || document.activeElement.className || document.activeElement.tagName"));
       }
-      for (const id of ['scene', 'open', 'folder', 'both', 'fix', 'format', 'share', 'download', 'picture', 'messages'])
+      for (const id of ['scene', 'open', 'folder', 'both', 'fix', 'format', 'share', 'download', 'picture', 'measure', 'messages'])
         assert.ok(reached.has(id), `Tab does not reach ${id}: ${[...reached].join(' ')}`);
       assert.ok([...reached].some((one) => one.includes('cm-content')), 'Tab reaches the text, and leaves it');
       await cursor(page, 'radius: 0.42', true);
       await page.type('x');
       await page.until("!!document.querySelector('.cm-lintRange-error') && !document.getElementById('numbers').hidden");
+      await page.value("page.study.show([{ samples: 1, depth: 1, ms: 10, error: 0.1 }, { samples: 4, depth: 1, ms: 40, error: 0.05 }])");
+      await page.value("document.querySelector('#front details').open = true; page.study.pick(0)");
       await click(page, 'both');
       await page.value(axe + ';0');
       const { violations } = await page.value("axe.run(document, { resultTypes: ['violations'] }).then(({ violations }) => ({ violations: violations.map((one) => ({ id: one.id, impact: one.impact, nodes: one.nodes.map((node) => node.target.join(' ') + ': ' + node.failureSummary) })) }))");

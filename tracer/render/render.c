@@ -306,6 +306,8 @@ static void take_levels(struct renderer *renderer) {
 
 bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
                      const struct render_settings *settings) {
+    if (!CLI_HAS_DEVICES)
+        return false;
     const struct render_settings old = renderer->settings, *now = &renderer->settings;
     renderer->flat = flat;
     take_levels(renderer);
@@ -344,6 +346,9 @@ static bool compile(struct renderer *renderer) {
 
 struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
                                  const struct render_settings *settings) {
+    if (!CLI_HAS_DEVICES)
+        return NULL; // none is ever changed or drawn with: what does is left out of a program linked as a
+                     // whole
     struct renderer *renderer = heap_zeroed(1, sizeof *renderer);
     if (!renderer)
         return NULL;

@@ -190,6 +190,8 @@ static enum render_result take(struct renderer *renderer, const struct view_came
 
 enum render_result renderer_hits(struct renderer *renderer, const struct view_camera *camera,
                                  struct hit_pixel *out, const struct render_progress *progress) {
+    if (!CLI_HAS_DEVICES)
+        return RENDER_FAILED;
     const struct asking all = {0, kind_count(renderer), progress};
     return take(renderer, camera, out, &all);
 }
@@ -197,6 +199,8 @@ enum render_result renderer_hits(struct renderer *renderer, const struct view_ca
 enum render_result renderer_first_hits(struct renderer *renderer, const struct view_camera *camera,
                                        uint32_t sample, struct hit_pixel *out,
                                        const struct render_progress *progress) {
+    if (!CLI_HAS_DEVICES)
+        return RENDER_FAILED;
     const struct asking first = {sample, HITS_FIRST + 1, progress};
     return take(renderer, camera, out, &first);
 }

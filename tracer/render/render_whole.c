@@ -71,6 +71,8 @@ enum render_result renderer_render_until(struct renderer *renderer, const struct
                                          float *rgb, const struct render_progress *progress,
                                          const struct render_limit *limit,
                                          struct render_statistics *statistics) {
+    if (!CLI_HAS_DEVICES)
+        return RENDER_FAILED;
     struct renderer_frame run = {
         .renderer = renderer, .progress = progress, .statistics = statistics, .limit = limit};
     return draw_frame(&run, camera, renderer->settings.counts, rgb);

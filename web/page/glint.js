@@ -61,6 +61,13 @@ export class Glint {
     for (const { reject } of waiting.values()) reject(new Cancelled());
   }
 
+  // For good.
+  end() {
+    this.worker.terminate();
+    if (this.spare) this.spare.terminate();
+    for (const { reject } of this.waiting.values()) reject(new Cancelled());
+  }
+
   put(files, gone = []) {
     this.worker.postMessage({ files, gone });
   }

@@ -5,6 +5,7 @@ import { decodeLink, encodeLink } from './link.js';
 import { Numbers } from './numbers.js';
 import { Picture } from './picture.js';
 import { Project, filesOf, readFiles } from './project.js';
+import { Study } from './study.js';
 
 const FIRST = 'elements/spheres.glint.yaml';
 const OWN = 'yours/'; // the folder of what the user brings
@@ -13,7 +14,7 @@ const COLORS = ['--color', 'never'];
 const $ = (id) => document.getElementById(id);
 const project = new Project();
 const stats = { passes: [], checks: [] };
-let checker, clerk, painter, client, editor, twin, picture, numbers;
+let checker, clerk, painter, client, editor, twin, picture, numbers, study;
 
 // What the page itself has to say; it stays until the next key. Mistakes of a scene are findings.
 function tell(text, good) {
@@ -101,7 +102,9 @@ const spell = latest(async () => {
   else twin.replace(out);
 });
 
+// The text has changed; what was measured of it counts no more.
 function judge() {
+  study.forget();
   check();
   spell();
   picture.draw(project.path);
@@ -143,6 +146,7 @@ async function editedTwin(text) {
   editor.replace(out);
   put(editor.path, out);
   project.keep(editor.path, out);
+  study.forget();
   check();
   picture.draw(project.path);
 }
@@ -381,6 +385,7 @@ function wire() {
     if (kind) await download(kind);
   });
   on('camera', 'change', () => {
+    study.forget();
     picture.camera = $('camera').value;
     picture.draw(project.path);
   });
@@ -426,11 +431,20 @@ async function begin() {
   editor = new Editor({ parent: $('editor'), label: 'The scene', client, changed: edited, moved });
   twin = new Editor({ parent: $('twin'), label: 'The other spelling', client, changed: (text) => editedTwin(text).catch(trouble), moved: () => {} });
   numbers = new Numbers({ panel: $('numbers'), list: $('sliders'), client });
+  study = new Study({
+    $,
+    worker: () => new Glint(module, files),
+    scene: () => picture.scene,
+    choose: (words, draws) => {
+      picture.settings = words;
+      if (draws) picture.draw(project.path);
+    },
+  });
   wire();
   await openLink();
 }
 
 window.addEventListener('unhandledrejection', (event) => trouble(event.reason));
 // For tests and the curious.
-window.page = { stats, project, get workers() { return [checker, clerk, painter]; }, get editor() { return editor; }, get twin() { return twin; }, get picture() { return picture; } };
+window.page = { stats, project, get workers() { return [checker, clerk, painter]; }, get editor() { return editor; }, get twin() { return twin; }, get picture() { return picture; }, get study() { return study; } };
 begin().catch(trouble);

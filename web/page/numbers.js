@@ -99,7 +99,7 @@ export function reach({ least = -Infinity, most = Infinity }, value, text) {
 
 async function hoverAt(client, view, at) {
   const plugin = LSPPlugin.get(view);
-  if (!plugin) return '';
+  if (!plugin || at > view.state.doc.length) return ''; // another text came meanwhile
   const params = { textDocument: { uri: plugin.uri }, position: plugin.toPosition(at) };
   const said = await client.request('textDocument/hover', params).catch(() => null);
   return said && said.contents ? said.contents.value || String(said.contents) : '';

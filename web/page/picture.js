@@ -10,13 +10,13 @@ const TRACER = ['--device', 'reference', '--as-file', '--no-cache', '--quiet', '
 
 // Of what `glint inspect --ir` prints.
 function understood(text) {
-  const number = (name, normal) => {
-    const found = new RegExp(`^image:(?:\\n +.*)*?\\n +${name}: (\\d+)$`, 'm').exec(text);
+  const number = (name, normal, part = 'image') => {
+    const found = new RegExp(`^${part}:(?:\\n +.*)*?\\n +${name}: (\\d+)$`, 'm').exec(text);
     return found ? +found[1] : normal;
   };
   const cameras = /^cameras:((?:\n +.*)*)/m.exec(text);
   const names = cameras ? [...cameras[1].matchAll(/^ {2}(\S.*):$/gm)].map(([, name]) => (name.startsWith('"') ? JSON.parse(name) : name)) : [];
-  return { width: number('width', 640), height: number('height', 480), samples: number('samples', 1), cameras: names };
+  return { width: number('width', 640), height: number('height', 480), samples: number('samples', 1), depth: number('max_depth', 16, 'trace'), cameras: names };
 }
 
 export class Picture {
@@ -24,6 +24,8 @@ export class Picture {
   constructor({ glint, canvas, told, seen }) {
     Object.assign(this, { glint, canvas, told, seen });
     this.camera = '';
+    this.settings = []; // options that are tried instead of the scene's own
+    this.scene = null; // what was understood last
     this.wanted = null;
     this.began = 0;
     this.whole = null; // the file of the whole picture
@@ -67,19 +69,23 @@ export class Picture {
   async passes(path) {
     const { status, out } = await this.run(['inspect', '--ir', '--skip-pixels', '--color', 'never', path]);
     if (status !== 0) {
+      this.scene = null;
       this.told({ failed: '' }); // the findings say why
       return;
     }
     if (this.wanted) return;
     const scene = understood(out);
     if (!scene.cameras.includes(this.camera)) this.camera = '';
+    this.scene = { ...scene, path, camera: this.camera };
     this.seen(scene);
+    const tried = /--samples,(\d+)/.exec(this.settings);
+    if (tried) scene.samples = +tried[1];
     const passes = PARTS.filter((part) => part === 1 || scene.width / part >= LEAST).map((part) => ({
       part,
       words: ['--size', `${Math.ceil(scene.width / part)}x${Math.ceil(scene.height / part)}`, '--samples', '1'],
     }));
     if (scene.samples === 1) passes.pop();
-    passes.push({ part: 1, words: [], whole: true });
+    passes.push({ part: 1, words: this.settings, whole: true });
     for (const { part, words, whole } of passes) {
       const camera = this.camera ? ['--camera', this.camera] : [];
       const { status, err, files, ms } = await this.run(['render', path, ...TRACER, ...camera, ...words, '-o', '/picture.png'], ['/picture.png']);
