@@ -96,9 +96,21 @@ vec3 image_bilinear(paint_record p, uint number, REAL2 at) {
     float x = folded(p, at.x) * float(level.y) - 0.5, y = (1.0 - folded(p, at.y)) * float(level.z) - 0.5;
     float x0 = floor(x), y0 = floor(y);
     ivec2 column = beside(p, x0, int(level.y)), row = beside(p, y0, int(level.z));
+#ifdef WEBGPU
+    // The same sums, texel by texel: a browser's compiler puts each call's code in its place.
+    vec3 sum = vec3(0.0), side = vec3(0.0);
+    for (uint i = 0u; i < 4u + OPAQUE_ZERO; i++) {
+        vec3 texel = image_texel(p, level, (i & 1u) == 0u ? column.x : column.y, i < 2u ? row.x : row.y);
+        side = (i & 1u) == 0u ? texel * (1.0 - (x - x0)) : side + texel * (x - x0);
+        if ((i & 1u) != 0u)
+            sum = i < 2u ? side * (1.0 - (y - y0)) : sum + side * (y - y0);
+    }
+    return sum;
+#else
     vec3 upper = image_texel(p, level, column.x, row.x) * (1.0 - (x - x0)) + image_texel(p, level, column.y, row.x) * (x - x0);
     vec3 lower = image_texel(p, level, column.x, row.y) * (1.0 - (x - x0)) + image_texel(p, level, column.y, row.y) * (x - x0);
     return upper * (1.0 - (y - y0)) + lower * (y - y0);
+#endif
 }
 
 // ---- images
@@ -131,7 +143,16 @@ vec3 image_filtered(paint_record p, REAL2 at, vec2 along, vec2 across) {
     for (uint i = 0u; i < taps; i++) {
         if (i < taps) {
             REAL2 tap = at + REAL2(axis * ((float(i) + 0.5) / float(taps) - 0.5));
+#ifdef WEBGPU
+            vec3 level_sum = vec3(0.0);
+            for (uint k = 0u; k < 2u + OPAQUE_ZERO; k++) {
+                vec3 color = image_bilinear(p, k == 0u ? below : above, tap);
+                level_sum = k == 0u ? color * (1.0 - share) : level_sum + color * share;
+            }
+            sum += level_sum;
+#else
             sum += image_bilinear(p, below, tap) * (1.0 - share) + image_bilinear(p, above, tap) * share;
+#endif
         }
     }
     return sum / float(taps);

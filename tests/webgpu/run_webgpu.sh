@@ -1,6 +1,7 @@
 #!/bin/sh
-# Pictures by WebGPU: run_webgpu.sh GLINT SOURCE WORK BUILD [SCENE...], where BUILD is a folder for the module; the program's own device draws
-# what they are compared with. WEBGPU_OPTIONS has options of `glint render`, WEBGPU_SCENES="all" takes every scene that ships.
+# Pictures by WebGPU: run_webgpu.sh GLINT SOURCE WORK BUILD [PAGE_BUILD], where BUILD is a folder for the module; the program's own device
+# draws what they are compared with. With PAGE_BUILD, a folder for the page's other module, the page is tried too, if tools/page.sh was run before.
+# WEBGPU_OPTIONS has options of `glint render`, WEBGPU_SCENES=all takes every scene that ships, WEBGPU_WAIT is how many seconds a picture may take.
 # tools/webgpu.sh fetches naga once; where it has not, or there is no Chromium, the test is skipped.
 . "$2/tests/clients.sh"
 manual=docs/decisions/webgpu.md
@@ -15,6 +16,12 @@ GLINT_WEBGPU_MODULES=${GLINT_WEBGPU_MODULES:-$source/build/webgpu-root}
 cmp -s "$source/web/gpu/package-lock.json" "$GLINT_WEBGPU_MODULES/package-lock.json" || skip "naga is not there; tools/webgpu.sh fetches it"
 export GLINT_WEB GLINT_WEBGPU_MODULES
 GLINT_WEBGPU_BUILD=$build "$source/tools/webgpu.sh" "$work/page" || fail "the module or a kernel is not made"
+GLINT_PAGE_MODULES=${GLINT_PAGE_MODULES:-$source/build/page-root}
+if [ -n "${5:-}" ] && cmp -s "$source/web/page/package-lock.json" "$GLINT_PAGE_MODULES/package-lock.json"; then
+    export GLINT_PAGE_MODULES
+    GLINT_WEB_BUILD=$5 GLINT_WEBGPU=$work/page "$source/tools/page.sh" "$work/whole" >/dev/null || fail "the page is not made"
+    node "$source/tests/webgpu/page.mjs" "$work/whole" || fail "the page"
+fi
 cp "$source/web/page/worker.js" "$source/tests/webgpu/index.html" "$work/page"
 
 scenes="elements/spheres language/transfer_srgb elements/seen_lights language/nested"

@@ -1,11 +1,11 @@
-// Makes the page's static files: node build.mjs OUT MODULES PACKAGE SOURCE, where MODULES is the folder that npm has filled, PACKAGE
-// the npm package glint-lint, and SOURCE the repository. OUT is a new folder.
+// Makes the page's static files: node build.mjs OUT MODULES PACKAGE SOURCE [GPU], where MODULES is the folder that npm has filled, PACKAGE
+// the npm package glint-lint, SOURCE the repository, and GPU what tools/webgpu.sh has made. OUT is a new folder.
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
 import path from 'node:path';
 
-const [out, modules, lint, source] = process.argv.slice(2);
+const [out, modules, lint, source, gpu] = process.argv.slice(2);
 const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
 const esbuild = createRequire(path.join(modules, 'esbuild.js'))('esbuild');
 fs.mkdirSync(out, { recursive: true });
@@ -16,13 +16,17 @@ const built = await esbuild.build({
   entryPoints: [path.join(here, 'main.js'), path.join(here, 'style.css')],
   outdir: out, bundle: true, minify: true, format: 'esm', target: ['es2022'], nodePaths: [path.join(modules, 'node_modules')],
   alias: { marked: path.join(here, 'markdown.js') },
-  legalComments: 'none', metafile: true, logLevel: 'warning', charset: 'utf8',
+  define: { GLINT_HAS_GPU: String(!!gpu) }, legalComments: 'none', metafile: true, logLevel: 'warning', charset: 'utf8',
 });
 await esbuild.build({ entryPoints: [path.join(here, 'worker.js')], outdir: out, minify: true, target: ['es2022'], logLevel: 'warning' });
 for (const name of ['index.html']) fs.copyFileSync(path.join(here, name), path.join(out, name));
 fs.copyFileSync(path.join(lint, 'glint.wasm'), path.join(out, 'glint.wasm'));
 const glue = fs.readFileSync(path.join(lint, 'glint.js'), 'utf8');
 fs.writeFileSync(path.join(out, 'glint.js'), esbuild.transformSync(glue, { minify: true, target: 'es2022' }).code);
+if (gpu) {
+  for (const name of ['glint-gpu.wasm', 'trace.wgsl', 'resolve.wgsl']) fs.copyFileSync(path.join(gpu, name), path.join(out, name));
+  fs.writeFileSync(path.join(out, 'glint-gpu.js'), esbuild.transformSync(fs.readFileSync(path.join(gpu, 'glint-gpu.js'), 'utf8'), { minify: true, target: 'es2022' }).code);
+}
 
 // The licences of what is in it.
 const packages = new Set();

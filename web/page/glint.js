@@ -3,9 +3,10 @@
 export class Cancelled extends Error {}
 
 export class Glint {
-  // `module`: compiled; `files()`: all that the scene's folder holds, by path, for a worker that starts.
-  constructor(module, files) {
+  // `module`: compiled, `gpu`: the one that draws by WebGPU; `files()`: all that the scene's folder holds, by path, for a worker that starts.
+  constructor(module, files, gpu = false) {
     this.module = module;
+    this.gpu = gpu;
     this.files = files;
     this.listeners = new Set();
     this.next = 0;
@@ -15,7 +16,7 @@ export class Glint {
 
   fresh() {
     const worker = new Worker('worker.js');
-    worker.postMessage({ module: this.module });
+    worker.postMessage({ module: this.module, gpu: this.gpu });
     return worker;
   }
 
@@ -95,9 +96,18 @@ export class Glint {
 }
 
 // Compiled once for all workers.
-export async function compile() {
-  const response = await fetch('glint.wasm');
-  if (!response.ok) throw new Error(`glint.wasm: ${response.status} ${response.statusText}`);
+export async function compile(name = 'glint.wasm') {
+  const response = await fetch(name);
+  if (!response.ok) throw new Error(`${name}: ${response.status} ${response.statusText}`);
   if ((response.headers.get('content-type') || '').startsWith('application/wasm')) return WebAssembly.compileStreaming(response);
   return WebAssembly.compile(await response.arrayBuffer());
+}
+
+// The module that draws by WebGPU, which is fetched only where that is worth it; null where the page has none, the browser cannot wait for a
+// GPU in a module, or what it has is a processor that plays one: the reference is faster. `?adapter=any` takes that too.
+export async function compileForGpu() {
+  if (!GLINT_HAS_GPU || !navigator.gpu || !WebAssembly.Suspending) return null;
+  const adapter = await navigator.gpu.requestAdapter({ powerPreference: 'high-performance' });
+  const any = new URLSearchParams(location.search).get('adapter') === 'any';
+  return adapter && (any || !adapter.info.isFallbackAdapter) ? compile('glint-gpu.wasm') : null;
 }

@@ -1,6 +1,6 @@
 // The page: a text, what is wrong with it, and its picture. Nothing is fetched but the files beside it.
 import { Editor, connect, isXml } from './editor.js';
-import { Glint, compile } from './glint.js';
+import { Glint, compile, compileForGpu } from './glint.js';
 import { decodeLink, encodeLink } from './link.js';
 import { Numbers } from './numbers.js';
 import { Picture } from './picture.js';
@@ -13,8 +13,9 @@ const COLORS = ['--color', 'never'];
 
 const $ = (id) => document.getElementById(id);
 const project = new Project();
+const workers = () => [checker, clerk, painter, gpu].filter(Boolean);
 const stats = { passes: [], checks: [] };
-let checker, clerk, painter, client, editor, twin, picture, numbers, study;
+let checker, clerk, painter, gpu, client, editor, twin, picture, numbers, study;
 
 // What the page itself has to say; it stays until the next key. Mistakes of a scene are findings.
 function tell(text, good) {
@@ -115,7 +116,7 @@ function judge() {
 
 function put(path, content) {
   project.files.set(path, content);
-  for (const glint of [checker, clerk, painter]) glint.put({ [path]: content });
+  for (const glint of workers()) glint.put({ [path]: content });
 }
 
 function edited(text) {
@@ -180,7 +181,7 @@ async function openScene(path, text) {
   const typed = text ?? project.draft(path) ?? project.files.get(path);
   project.files.set(path, typed);
   const all = Object.fromEntries(project.files);
-  for (const glint of [checker, clerk, painter]) glint.put(all);
+  for (const glint of workers()) glint.put(all);
   showFile(path);
   listScenes();
   judge();
@@ -330,15 +331,15 @@ function pickKeys(event) {
 
 // ---- the picture
 
-function painted({ part, ms, whole, failed, samples, width, height }) {
+function painted({ part, ms, whole, failed, by, samples, width, height }) {
   if (failed !== undefined) {
     $('progress').textContent = failed || 'This is the last picture: the text of now has errors.';
     return;
   }
   $('stage').classList.remove('old');
   const words = whole ? `${width} × ${height}, ${samples} sample${samples === 1 ? '' : 's'} per pixel` : part > 1 ? `every ${part}th pixel …` : 'one sample per pixel …';
-  $('progress').textContent = `${words} (${ms < 1000 ? `${ms.toFixed(0)} ms` : `${(ms / 1000).toFixed(1)} s`})`;
-  stats.passes.push({ part, ms, whole, at: performance.now() });
+  $('progress').textContent = `${words} (${ms < 1000 ? `${ms.toFixed(0)} ms` : `${(ms / 1000).toFixed(1)} s`})${whole ? `, by ${by}` : ''}`;
+  stats.passes.push({ part, ms, whole, by, at: performance.now() });
   placeMark();
 }
 
@@ -442,6 +443,10 @@ async function begin() {
   });
   wire();
   await openLink();
+  const forGpu = await compileForGpu().catch(() => null);
+  if (!forGpu) return;
+  gpu = picture.gpu = new Glint(forGpu, files, true);
+  picture.draw(project.path);
 }
 
 window.addEventListener('unhandledrejection', (event) => trouble(event.reason));

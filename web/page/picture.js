@@ -1,10 +1,12 @@
 // The picture of a scene, coarse to fine, by the reference tracer in a worker. What is drawn last is, byte for byte, the file
-// that `glint render SCENE --device reference --as-file` writes.
+// that `glint render SCENE --device reference --as-file` writes; or, where there is a GPU, the whole picture is its own.
 import { Cancelled } from './glint.js';
 
 const PARTS = [8, 4, 2, 1]; // of width and height, with one sample per pixel
 const LEAST = 24; // pixels across: coarser ones show nothing
 const SHORT_MS = 60; // a pass that ends soon is waited for
+const LONG_MS = 2000; // one of a GPU that takes longer is given up, and what its compiler has made with it
+const GPU_MS = 60000; // for a GPU's compiler, and its picture
 
 const TRACER = ['--device', 'reference', '--as-file', '--no-cache', '--quiet', '--color', 'never'];
 
@@ -30,6 +32,8 @@ export class Picture {
     this.began = 0;
     this.whole = null; // the file of the whole picture
     this.working = false;
+    this.gpu = null; // a worker that draws by WebGPU, once there is one
+    this.gpuBegan = 0;
   }
 
   // The scene at `path`, whose files the worker has. A picture that is being made is given up.
@@ -37,6 +41,7 @@ export class Picture {
     this.wanted = path;
     this.whole = null;
     if (this.began && performance.now() - this.began > SHORT_MS) this.glint.cancel();
+    if (this.gpuBegan && performance.now() - this.gpuBegan > LONG_MS) this.gpu.cancel();
     if (!this.working) this.work();
   }
 
@@ -66,6 +71,28 @@ export class Picture {
     }
   }
 
+  // The whole picture by WebGPU; what it was not drawn for, '' if it was.
+  async byGpu(path, camera, scene) {
+    const began = (this.gpuBegan = performance.now());
+    const late = setTimeout(() => this.gpu.died('the GPU did not answer'), GPU_MS);
+    try {
+      const { status, err, files } = await this.gpu.run(['render', path, '--quiet', '--color', 'never', ...camera, ...this.settings, '-o', '/picture.png'], ['/picture.png']);
+      if (/\[(E707|W701)\]/.test(err)) return 'this scene needs double precision, which WebGPU has not';
+      if (status !== 0 || this.wanted) return err.split('\n')[0] || 'the text has changed';
+      await this.show(files['/picture.png'], scene);
+      this.whole = files['/picture.png'];
+      this.told({ part: 1, ms: performance.now() - began, whole: true, by: 'WebGPU', samples: scene.samples, width: scene.width, height: scene.height });
+      return '';
+    } catch (error) {
+      if (error instanceof Cancelled) throw error;
+      this.gpu = null; // its worker has begun anew; what ended once is not asked again
+      return error.message;
+    } finally {
+      clearTimeout(late);
+      this.gpuBegan = 0;
+    }
+  }
+
   async passes(path) {
     const { status, out } = await this.run(['inspect', '--ir', '--skip-pixels', '--color', 'never', path]);
     if (status !== 0) {
@@ -86,8 +113,13 @@ export class Picture {
     }));
     if (scene.samples === 1) passes.pop();
     passes.push({ part: 1, words: this.settings, whole: true });
+    const camera = this.camera ? ['--camera', this.camera] : [];
+    let why = this.gpu ? null : undefined; // why the GPU did not draw; null: it was not asked yet
     for (const { part, words, whole } of passes) {
-      const camera = this.camera ? ['--camera', this.camera] : [];
+      if (why === null && part < PARTS[0]) {
+        why = await this.byGpu(path, camera, scene);
+        if (!why || this.wanted) return;
+      }
       const { status, err, files, ms } = await this.run(['render', path, ...TRACER, ...camera, ...words, '-o', '/picture.png'], ['/picture.png']);
       if (status !== 0) {
         this.told({ failed: err });
@@ -96,7 +128,7 @@ export class Picture {
       if (this.wanted && !whole) return;
       await this.show(files['/picture.png'], scene);
       if (whole) this.whole = files['/picture.png'];
-      this.told({ part, ms, whole: !!whole, samples: whole ? scene.samples : 1, width: scene.width, height: scene.height });
+      this.told({ part, ms, whole: !!whole, by: why ? `the reference: ${why}` : 'the reference', samples: whole ? scene.samples : 1, width: scene.width, height: scene.height });
     }
   }
 
