@@ -216,24 +216,4 @@ begin "$glint" view scene.yaml -q
 does await
 ends 'SIGTERM ends it' TERM 0
 kill "$server"
-
-# With twice the dots to an inch the text is twice as large, and the picture has the pixels of the scene.
-sed -i 's/width: 96, height: 72/width: 320, height: 240/' scene.yaml
-for dpi in 96 192; do
-    display -dpi $dpi || fail "no display of $dpi dots to an inch"
-    trap 'kill "$server" 2>/dev/null' EXIT
-    begin "$glint" view scene.yaml -o out.pfm --stats=json
-    trap 'kill "$process" "$server" 2>/dev/null' EXIT
-    writes=0
-    does await
-    loaded "a window of $dpi dots to an inch" '"broken": false'
-    still dpi$dpi.ppm
-    grep -aq '^320 240' dpi$dpi.ppm || fail 'in its size'
-    as_rendered 'the picture of glint render'
-    does key Escape
-    wait "$process"
-    kill "$server"
-    trap - EXIT
-done
-other 'the text has another size' dpi96.ppm dpi192.ppm
 exit $failed

@@ -1,13 +1,17 @@
-// The device of a running glint stops answering (VK_ERROR_DEVICE_LOST), by the library of tests/faults that it was
-// started with. Usage: lose_device PLAN [now], which writes a plan without a fault, or makes every call fail from now on.
-#include "../faults/faults.h"
+// The device of a running glint stops answering (VK_ERROR_DEVICE_LOST), by the library of tests/faults that
+// it was started with. Usage: lose_device PLAN [now], which writes a plan without a fault, or makes every
+// call fail from now on.
+#include "faults.h"
 
 #include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
-#include <vulkan/vulkan_core.h>
+
+enum {
+    DEVICE_LOST = -4, // VK_ERROR_DEVICE_LOST (Vulkan 1.3, VkResult)
+};
 
 int main(int argc, char **argv) {
     const bool now = argc == 3 && strcmp(argv[2], "now") == 0;
@@ -22,7 +26,7 @@ int main(int argc, char **argv) {
     if (plan == MAP_FAILED)
         return 1;
     if (!now) {
-        *plan = (struct faults){.kind = FAULTS_VULKAN, .error = VK_ERROR_DEVICE_LOST, .onward = true};
+        *plan = (struct faults){.kind = FAULTS_VULKAN, .error = DEVICE_LOST, .onward = true};
         return 0;
     }
     plan->number = atomic_load(&plan->seen) + 1;
