@@ -62,6 +62,7 @@ struct viewer {
     double moved;         // clock: when the eye moved last
     double stepped;       // clock: when time went by last
     double looked;        // clock: when the files were looked at, during a picture
+    double shown_speed;   // of flight, that the text in the window says
     char said[256];       // about what was clicked
 };
 

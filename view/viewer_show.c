@@ -183,6 +183,7 @@ bool viewer_show(struct viewer *v) {
     if (!canvas_resize(&v->canvas, v->width, v->height) || !make_bytes(v))
         return false;
     const uint32_t scale = window_text_scale(v->window);
+    v->shown_speed = v->steer.speed;
     canvas_put_picture(&v->canvas, v->bytes, v->shown.image.width, v->shown.image.height);
     if (!v->hides_overlay)
         put_overlay(v, scale);

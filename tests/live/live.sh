@@ -64,3 +64,18 @@ ends() {
     if [ "$got" -eq "$3" ]; then pass "$1"; else fail "$1: exit $got, wanted $3"; fi
     trap - EXIT
 }
+
+# display: begins a display in memory, of 640x480 points, as $server; DISPLAY names it. false: it did not begin.
+display() {
+    unset WAYLAND_DISPLAY
+    : >number.txt
+    Xvfb -displayfd 3 -screen 0 640x480x24 -nolisten tcp 3>number.txt >xvfb.txt 2>&1 &
+    server=$!
+    for _ in $(seq 600); do
+        [ -s number.txt ] && break
+        kill -0 "$server" 2>/dev/null || return 1
+        sleep 0.1
+    done
+    DISPLAY=:$(cat number.txt)
+    export DISPLAY
+}

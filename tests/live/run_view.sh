@@ -41,18 +41,36 @@ if ! command -v Xvfb >/dev/null || [ ! -x "$events" ]; then
     exit 77
 fi
 
-Xvfb -displayfd 3 -screen 0 640x480x24 -nolisten tcp 3>number.txt >xvfb.txt 2>&1 &
-server=$!
+display || fail 'no display'
 trap 'kill "$server" 2>/dev/null' EXIT
-for _ in $(seq 100); do
-    [ -s number.txt ] && break
-    sleep 0.1
-done
-DISPLAY=:$(cat number.txt)
-export DISPLAY
 
 # does WORD...: real events; a failure is one of the test.
 does() { "$events" scene.yaml "$@" || fail "events: $*"; }
+
+# still FILE: the window, once it has all its samples and does not change any more.
+still() {
+    does shot "$1"
+    for _ in $(seq 600); do
+        does sleep 300 shot stiller.ppm
+        cmp -s "$1" stiller.ppm && return
+        mv stiller.ppm "$1"
+    done
+    fail 'the window does not come to rest'
+}
+
+# changes NAME FILE [WORD...]: after the events, what the window shows becomes another picture than FILE; it is in now.ppm.
+changes() {
+    name=$1
+    file=$2
+    shift 2
+    [ $# -eq 0 ] || does "$@"
+    for _ in $(seq 600); do
+        does shot now.ppm
+        cmp -s "$file" now.ppm || break
+        sleep 0.1
+    done
+    other "$name" "$file" now.ppm
+}
 
 # written: what the key P writes, when it is there.
 writes=0
@@ -96,15 +114,17 @@ grep -aq '^96 72' home.ppm || fail 'in its size'
 other 'which is in the window' home.ppm /dev/null
 
 # Left of the middle is the ball, which is line 10 of the scene.
-does move 28 36 press 1 release 1 sleep 300
-for _ in $(seq 100); do
+does move 28 36 press 1 release 1
+for _ in $(seq 600); do
     grep -q "scene.yaml:10:.*: sphere 'ball', material 'blue'" loads.json && break
     sleep 0.1
 done
 if grep -q "^scene.yaml:9:.*: material 'blue'" loads.json; then pass 'a click names the body'; else fail 'a click names the body'; fi
 
 cp out.pfm front.pfm
-does down w sleep 400 up w
+still home.ppm
+changes 'W shows another place' home.ppm down w
+does up w
 written
 other 'W flies' front.pfm out.pfm
 cp out.pfm near.pfm
@@ -113,32 +133,43 @@ written
 other 'the right button turns around what was clicked' near.pfm out.pfm
 cp out.pfm there.pfm
 : >camera.txt
-does key c sleep 500
+does key c
+for _ in $(seq 600); do
+    grep -q '^camera.*' loads.json && grep -q 'position' loads.json && break
+    sleep 0.1
+done
 sed -n '/^cameras:/,$p; /^camera:/,$p' loads.json >camera.txt
 sed '/^cameras:/,/side:/d' scene.yaml >pasted.yaml
 cat camera.txt >>pasted.yaml
-expect 'C prints the camera, to paste' 0 '' '' "$glint" render pasted.yaml -o pasted.pfm
+samples=$(sed -n 's/^glint: wrote out.pfm.* \([0-9]*\) samples*$/\1/p' said.txt | tail -1)
+expect 'C prints the camera, to paste' 0 '' '' "$glint" render pasted.yaml -o pasted.pfm --samples "${samples:-1}"
 expect 'which sees the same' 0 '' '' "$glint" compare pasted.pfm there.pfm --max-rmse 0.02
 
 does key 2
 as_rendered 'another camera' --camera side
-does key 1 down a sleep 200 up a key r
+does key 1
+still front.ppm
+changes 'A flies to the left' front.ppm down a
+does up a key r
 as_rendered 'R goes back'
 
-# changes NAME FILE: what the window shows becomes another picture than FILE; it is in now.ppm.
-changes() {
-    for _ in $(seq 300); do
-        does shot now.ppm
-        cmp -s "$2" now.ppm || break
-        sleep 0.1
-    done
-    other "$1" "$2" now.ppm
-}
-does key h sleep 300 shot last.ppm
+
+# The wheel says how fast, and the text what it is.
+still now.ppm
+cp now.ppm slow.ppm
+changes 'the wheel makes it faster' slow.ppm press 4 release 4
+still now.ppm
+cp now.ppm fast.ppm
+changes 'and slower' fast.ppm press 5 release 5
+still now.ppm
+same 'as it was' slow.ppm now.ppm
+
+cp now.ppm last.ppm
+changes 'H hides the text' last.ppm key h
+still last.ppm
 for mode in normals depth cost error colour; do
-    does key Tab
-    changes "Tab shows $mode" last.ppm
-    cp now.ppm last.ppm
+    changes "Tab shows $mode" last.ppm key Tab
+    still last.ppm
 done
 
 sed -i 's/#1020ff/#10ff20/' scene.yaml
@@ -147,7 +178,7 @@ as_rendered 'its picture'
 
 cp scene.yaml good.yaml
 cp out.pfm green.pfm
-does sleep 300 shot good.ppm
+still good.ppm
 sed -i 's/radius: 0.9/radius: -1/' scene.yaml
 loaded 'a mistake' '"broken": true'
 grep -q 'scene.yaml:10:.*error' said.txt || fail 'is told with its place'
@@ -157,10 +188,17 @@ expect 'the picture stays' 0 '' '' "$glint" compare green.pfm out.pfm --max-rmse
 mv good.yaml scene.yaml
 loaded 'mended' '"broken": false' '"meshes_read": 0'
 
-does size 120 90 sleep 300
+still now.ppm
+does size 120 90
+still now.ppm
+grep -aq '^120 90' now.ppm || fail 'it does not get the size'
 as_rendered 'another size' --size 120x90
-does hide sleep 300 show await sleep 300
-written
+# Minimised it goes on to follow the files, and draws when it is back.
+does hide
+sed -i 's/#10ff20/#ff1020/' scene.yaml
+loaded 'a change while it is minimised' '"broken": false' '"meshes_read": 0, "images_read": 0, "trees_built": 0' '"pipelines_made": 0'
+does show await
+as_rendered 'its picture' --size 120x90
 does close
 wait "$process"
 got=$?
