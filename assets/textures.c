@@ -189,11 +189,12 @@ static void report_bare(struct loader *loader, const struct assets_model *model,
     }
     if (count &&
         asset_report_line(&loaded->file, DIAG_COORDINATES_MISSING, first,
-                          "%u face%s no texture coordinates (vt) and a material with an image: %s shown in "
+                          "%u face%s no texture coordinates and a material with an image: %s shown in "
                           "the image's colour at 0, 0",
                           count, count == 1 ? " has" : "s have", count == 1 ? "it is" : "they are"))
-        diag_help(loader->input->sink,
-                  "unwrap the mesh in a 3D program, or give the model a material without an image");
+        diag_help(loader->input->sink, "unwrap the mesh in a 3D program and export them (vt in OBJ; u and v, "
+                                       "or s and t, of vertices in PLY; STL "
+                                       "has none), or give the model a material without an image");
 }
 
 void loader_load_coordinates(struct loader *loader, const struct assets_model *model,

@@ -321,8 +321,7 @@ static const struct schema_row material_rows[] = {
      .weight_features = {FEATURE_DIFFUSE, FEATURE_SPECULAR, FEATURE_REFLECTION, FEATURE_REFRACTION},
      .doc = "Weights of diffuse light, highlights, reflection and refraction; their sum may exceed 1."},
     {.name = "diffuse_color", .element = "DiffuseColor", FIELD(ir_material, diffuse_color),
-     .also = "color base_color albedo_color kd diffuse texture texture_map diffuse_map diffuse_texture map_kd "
-             "image_texture albedo_map color_map base_color_texture",
+     .also = "color base_color albedo_color kd diffuse",
      .child = &SCHEMA_PAINT, .doc = "Colour of the diffuse light."},
     {.name = "specular_color", .element = "SpecularColor", FIELD(ir_material, specular_color),
      .also = "ks highlight_color",

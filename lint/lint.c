@@ -54,6 +54,9 @@ const struct lint_rule lint_rules[] = {
     {DIAG_UNUSED_VALUE, lint_unused_value, LINT_ALL},
     // The bodies whose boxes each panel overlaps; of meshes the faces there.
     {DIAG_PANEL_IN_PLANE, lint_panel_in_plane, LINT_ALL},
+    // One pass over the bodies; three values.
+    {DIAG_BLACK_MEDIUM, lint_black_medium, LINT_ALL},
+    {DIAG_STRETCHED, lint_panorama, LINT_CHEAP},
     {.run = NULL},
 };
 

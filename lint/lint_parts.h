@@ -129,14 +129,16 @@ void lint_inside_out(struct lint *lint);
 void lint_oversized_image(struct lint *lint); // rules_image.c
 void lint_media(struct lint *lint);           // rules_media.c
 void lint_attenuation(struct lint *lint);     // rules_material.c
-void lint_too_fine(struct lint *lint);        // rules_paint.c
-void lint_few_samples(struct lint *lint);     // rules_light.c
+void lint_black_medium(struct lint *lint);
+void lint_too_fine(struct lint *lint);    // rules_paint.c
+void lint_few_samples(struct lint *lint); // rules_light.c
 void lint_light_around(struct lint *lint);
 void lint_ambient(struct lint *lint);
 void lint_emission(struct lint *lint);
 void lint_one_sample(struct lint *lint); // rules_lens.c
 void lint_nothing_sharp(struct lint *lint);
 void lint_lens_inside(struct lint *lint);
+void lint_panorama(struct lint *lint);
 void lint_never_ends(struct lint *lint); // rules_samples.c
 void lint_sky_samples(struct lint *lint);
 void lint_sky_dark(struct lint *lint);

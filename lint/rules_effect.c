@@ -51,6 +51,26 @@ static void report_image(struct lint *lint, const struct ir_material *material,
               weight[0] == 'd' ? "first" : "second");
 }
 
+// What says how light goes on inside of a body, of a material that lets none in. `fresnel` takes the index of
+// a varnish too.
+static void look_inside(struct lint *lint, const struct ir_material *material) {
+    const struct ir_weights *w = &material->albedo;
+    if (w->refraction > 0)
+        return;
+    const bool varnished = material->fresnel && w->reflection > 0;
+    const char *row = material->priority != 0 ? "priority" : "refractive_index";
+    if (material->priority == 0 && (varnished || material->refractive_index == 1))
+        return;
+    diag_add(lint->sink, DIAG_UNUSED_VALUE,
+             ir_place_key(lint->origin, &material->head, &SCHEMA_MATERIAL, row),
+             "'%s' of %.*s has no effect: it does not refract", row, STR_ARG(words_of(lint, material)));
+    diag_help(lint->sink,
+              "give it a weight of refraction, the fourth number of albedo, such as [0, 0.5, 0.1, 0.8] for "
+              "glass, or leave "
+              "'%s' out",
+              row);
+}
+
 static void look_at_material(struct lint *lint, const struct ir_material *material) {
     const struct ir_weights *w = &material->albedo;
     const bool sends_rays = w->reflection > 0 || w->refraction > 0;
@@ -58,6 +78,7 @@ static void look_at_material(struct lint *lint, const struct ir_material *materi
         report_row(lint, material, "roughness");
     if (!sends_rays && material->fresnel)
         report_row(lint, material, "fresnel");
+    look_inside(lint, material);
     if (material->diffuse_color.kind == IR_PAINT_IMAGE && !(w->diffuse > 0))
         report_image(lint, material, &material->diffuse_color.image, "diffuse_color", "diffuse");
     if (material->specular_color.kind == IR_PAINT_IMAGE && !(w->specular > 0))
@@ -83,6 +104,50 @@ static void look_at_light(struct lint *lint, const struct view_light *light) {
         diag_help(lint->sink, "remove the body, or leave 'visible' out");
 }
 
+// ---- shadows and samples
+
+static bool any_refracts(const struct lint *lint) {
+    for (uint32_t i = 0; i < lint->body_count; i++)
+        if (lint_is_there(&lint->bodies[i]) && !(lint->bodies[i].is_opaque))
+            return true;
+    return false;
+}
+
+static void look_at_shadows(struct lint *lint) {
+    const struct ir_trace *trace = &lint->ir->trace;
+    const struct ir_ambient *ambient = &lint->ir->ambient;
+    if (trace->transparent_shadows && (!trace->shadows || !any_refracts(lint))) {
+        diag_add(lint->sink, DIAG_UNUSED_VALUE,
+                 ir_place_key(lint->origin, &trace->head, &SCHEMA_TRACE, "transparent_shadows"),
+                 "'transparent_shadows' has no effect: %s",
+                 trace->shadows ? "no body refracts" : "all shadows are switched off");
+        diag_help(lint->sink, trace->shadows
+                                  ? "light passes through materials with a weight of refraction, the "
+                                    "fourth number of albedo"
+                                  : "remove shadows: false, or leave 'transparent_shadows' out");
+    }
+    if (ambient->occlusion > 0 && !trace->shadows) {
+        diag_add(lint->sink, DIAG_UNUSED_VALUE,
+                 ir_place_key(lint->origin, &ambient->head, &SCHEMA_AMBIENT, "occlusion"),
+                 "'occlusion' of ambient light has no effect: all shadows are switched off");
+        diag_help(lint->sink, "remove shadows: false, or leave 'occlusion' out");
+    }
+}
+
+// Both must say so, as in lint_never_ends.
+static void look_at_samples(struct lint *lint) {
+    const struct ir_image *image = &lint->ir->image;
+    if (!is_written(&image->head, &SCHEMA_IMAGE, "min_samples") ||
+        is_written(&image->head, &SCHEMA_IMAGE, "error") || lint->input->image->error > 0)
+        return;
+    diag_add(lint->sink, DIAG_UNUSED_VALUE,
+             ir_place_key(lint->origin, &image->head, &SCHEMA_IMAGE, "min_samples"),
+             "'min_samples' has no effect: without an error all pixels take the same number of samples, %d",
+             image->samples);
+    diag_help(lint->sink,
+              "write the error at which pixels end, such as error: 0.01, or leave 'min_samples' out");
+}
+
 // Of what no body has W408 speaks; files of meshes say more than they use.
 void lint_unused_value(struct lint *lint) {
     const struct scene *scene = lint->scene;
@@ -92,6 +157,8 @@ void lint_unused_value(struct lint *lint) {
     for (uint32_t i = 0; i < lint->views[0].light_count; i++)
         if (!lint->views[0].lights[i].automatic)
             look_at_light(lint, &lint->views[0].lights[i]);
+    look_at_shadows(lint);
+    look_at_samples(lint);
     for (uint32_t i = 0; i < lint->body_count; i++)
         for (uint32_t g = 0; lint_is_there(&lint->bodies[i]) && g < lint->bodies[i].is->group_count; g++) {
             const struct ir_material *material = lint_material(lint, &lint->bodies[i], g);

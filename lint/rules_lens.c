@@ -189,3 +189,23 @@ void lint_lens_inside(struct lint *lint) {
                   view->projection == IR_PROJECTION_ORTHOGRAPHIC ? "size" : "aperture");
     }
 }
+
+// ---- the whole sphere in a picture
+
+static bool fits_panorama(const struct ir_image *image) {
+    return abs(image->width - 2 * image->height) <= 2;
+}
+
+// Of an only camera: several share one size, whatever their projections are.
+void lint_panorama(struct lint *lint) {
+    const struct ir_image *image = &lint->ir->image, *rendered = lint->input->image;
+    const struct ir_camera *camera = lint->ir->cameras.count == 1 ? camera_of(lint, 0) : NULL;
+    if (!camera || camera->projection != IR_PROJECTION_PANORAMA || fits_panorama(image) ||
+        fits_panorama(rendered))
+        return;
+    diag_add(lint->sink, DIAG_STRETCHED, camera_place(lint, camera, "projection"),
+             "camera '%.*s' shows 360 by 180 degrees, but the picture has %d x %d pixels: all is stretched",
+             STR_ARG(camera->name), rendered->width, rendered->height);
+    diag_help(lint->sink, "write a picture twice as wide as high: image: {width: %d, height: %d}",
+              2 * rendered->height, rendered->height);
+}

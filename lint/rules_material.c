@@ -188,3 +188,28 @@ void lint_attenuation(struct lint *lint) {
                           : "write what is left of white light after that distance: attenuation_color");
     }
 }
+
+// ---- media in which light ends at once
+
+// Of what nothing is left; empty: something is of each.
+static const char *channels_gone(vec3 left) {
+    static const char *const names[] = {"",     "red",         "green",         "red or green",
+                                        "blue", "red or blue", "green or blue", "red, green or blue"};
+    return names[!(left.x > 0) + 2 * !(left.y > 0) + 4 * !(left.z > 0)];
+}
+
+void lint_black_medium(struct lint *lint) {
+    const bool *shown = shown_inside(lint);
+    for (uint32_t i = 0; i < lint->scene->assets->material_count; i++) {
+        const struct ir_material *material = &lint->scene->assets->materials[i];
+        const char *gone =
+            channels_gone(scene_linear_color(material->attenuation_color, lint->ir->image.transfer));
+        if (!shown[i] || material->head.origin == 0 || !*gone)
+            continue;
+        diag_add(lint->sink, DIAG_BLACK_MEDIUM,
+                 ir_place_value(lint->origin, &material->head, &SCHEMA_MATERIAL, "attenuation_color"),
+                 "%.*s lets no %s through, however short the way inside is: 'attenuation_color' is 0 there",
+                 STR_ARG(material_words(lint, material)), gone);
+        diag_help(lint->sink, "write what is left after 'attenuation_distance', such as 0.02, in place of 0");
+    }
+}

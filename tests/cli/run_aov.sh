@@ -58,6 +58,22 @@ closed_forms exact
 cmp -s plain.png exact.png && pass 'the picture stays the same' || fail 'the picture stays the same'
 grep -q '"id": 3, "name": "rectangles\[1\]", "kind": "rectangle", "place": "scene.yaml:12:' exact.names.json &&
     pass 'who has no name has a place' || fail 'who has no name has a place'
+# A lamp that is seen, before the ball and beside it before nothing, is no surface. seen STEM LIKE [OPTION...]
+sed 's/^lights: .*/lights: [{position: [0, 3, 0]}, {position: [0, 0, -2.5], radius: 0.4, intensity: 9, visible: true}, {position: [-2, 2, -3], radius: 0.3, visible: true}]/' \
+    scene.yaml >lamps.yaml
+seen() {
+    stem=$1 like=$2
+    shift 2
+    "$glint" render lamps.yaml "$@" --aov depth,normal,position,albedo,object,material,index -o "$stem.png" -o "$stem.pfm" -q
+    near "$stem: the lamp is in the picture" "$(awk -v a="$(value "$stem.pfm" 32 32 0)" 'BEGIN { print (a > 9) }')" 1
+    near "$stem: the other too" "$(awk -v a="$(value "$stem.pfm" 10 10 0)" 'BEGIN { print (a > 1) }')" 1
+    for name in depth normal position albedo object material index; do
+        cmp -s "$stem.$name.pfm" "$like.$name.pfm" && pass "$stem hides nothing: $name" || fail "$stem hides nothing: $name"
+    done
+    near "$stem: no lamp has a number" "$(value "$stem.object.pfm" 10 10 0)" 0
+}
+seen lamps exact --device reference --no-cache
+
 expect 'pick says the same' 0 'ball' - "$glint" pick scene.yaml 32,32 --device reference --format json
 also 'its distance too' '"distance": 4,?$|"distance": 4[,}]' ''
 
@@ -114,6 +130,7 @@ fi
 "$glint" render scene.yaml -o device_plain.png -q
 cmp -s device.png device_plain.png && pass 'the same picture by a device' || fail 'the same picture by a device'
 closed_forms device
+seen seen device
 for name in object material index cost samples; do
     cmp -s device.$name.pfm exact.$name.pfm && pass "device and reference: $name" || fail "device and reference: $name"
 done

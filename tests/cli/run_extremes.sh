@@ -55,6 +55,13 @@ END
     done
     sed 's/^lights: .*/lights: [{direction: [0.4, -1, -0.3], angle: 5}]/' plain.yaml >disc.yaml
     expect "a sun that comes down to a surface" 0 ' 0 left out, 0 broken, ' '' "$glint" extremes disc.yaml --size 24x18 -q --axis light
+    printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n' >square.obj
+    { sed '/^lights:/d; /^spheres:/d' plain.yaml && cat <<'END'; } >panel.yaml
+lights: [{rectangle: {corner: [-1, 4, -1], edge_u: [2, 0, 0], edge_v: [0, 0.5, 2]}}]
+models: [{mesh: square.obj, scale: [1.5, 0.8, 3], rotation: [-50, 25, 10], translation: [0.1, 1, 0]}]
+END
+    expect "a panel and a camera on a turned model" 0 '^12 cells, 0 left out, 0 broken' '' "$glint" extremes panel.yaml --size 24x18 -q \
+        --axis light,camera
     expect "an axis that the scene lacks" 0 'left out: no material reflects or refracts' '' "$glint" extremes plain.yaml --size 24x18 -q --axis roughness
     exit $failed
 fi
