@@ -3,6 +3,8 @@
 
 #include "grammar/ir.h"
 
+#include <stdlib.h>
+
 enum {
     STARTS_A_SIDE = 5, // of the places where rays begin that are looked at
 };
