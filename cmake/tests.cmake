@@ -14,16 +14,17 @@ function(glint_quick)
   endforeach()
 endfunction()
 
-# glint_test(NAME [SECONDS n] [COST n] [RELEASE | BOTH] [QUICK] [IN folder] [ENVIRONMENT name=value ...] COMMAND ...)
+# glint_test(NAME [SECONDS n] [COST n] [RELEASE | WHOLE | BOTH] [QUICK] [IN folder] [ENVIRONMENT name=value ...] COMMAND ...)
 #   SECONDS   of processor time that a process may take; 3600, ten times what the longest takes
 #   COST      seconds of processor time that it takes where that is more than 5: the longest start first
 #   RELEASE   only for a build without sanitizers, where ./check runs it: what is heavy and not about memory
+#   WHOLE     the same, only in ./check --whole: what takes long because it tries all, where smaller tests try some
 #   BOTH      ./check runs it in either build: the command is a smaller one with sanitizers
 #   QUICK     has the label `quick`: what a change of the language can break, without a picture
 # A command that ends with 77 cannot run here and is skipped.
 function(glint_test name)
-  cmake_parse_arguments(T "RELEASE;BOTH;QUICK" "SECONDS;COST;IN" "ENVIRONMENT;COMMAND" ${ARGN})
-  if(T_RELEASE AND GLINT_SANITIZE)
+  cmake_parse_arguments(T "RELEASE;WHOLE;BOTH;QUICK" "SECONDS;COST;IN" "ENVIRONMENT;COMMAND" ${ARGN})
+  if((T_RELEASE OR T_WHOLE) AND GLINT_SANITIZE)
     return()
   endif()
   if(NOT T_SECONDS)
@@ -49,6 +50,9 @@ function(glint_test name)
   endif()
   if(T_RELEASE OR (T_BOTH AND NOT GLINT_SANITIZE))
     set_property(TEST ${name} APPEND PROPERTY LABELS release)
+  endif()
+  if(T_WHOLE)
+    set_property(TEST ${name} APPEND PROPERTY LABELS whole)
   endif()
   if(T_QUICK)
     set_property(TEST ${name} APPEND PROPERTY LABELS quick)

@@ -202,7 +202,7 @@ expect "two meshes by one path" 1 '^changed models.0..mesh: pane.obj -> pane.obj
 expect "diff as JSON" 1 '"kind": "moved"' - "$glint" diff --format json a.yaml b.yaml
 expect "diff of a broken scene" 1 - 'E101' "$glint" diff a.yaml broken.yaml
 expect "diff of a missing scene" 3 - 'missing.yaml:1:1: error' "$glint" diff a.yaml missing.yaml
-for scene in "$source"/scenes/*.yaml "$source"/scenes/elements/*.yaml; do
+for scene in "$source"/scenes/*.glint.yaml "$source"/scenes/elements/*.yaml; do
     expect "twins: $(basename "$scene")" 0 - - "$glint" diff "$scene" "${scene%.yaml}.xml"
 done
 

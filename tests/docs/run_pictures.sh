@@ -11,10 +11,11 @@ shift
 alone=$4
 largest=30000 # bytes of a file
 
-# The steps of the tutorial are as large as each other; the other scenes say themselves how large they are.
+# The steps of the tutorial are as large as each other, what moves is shown in nine frames; the other scenes say themselves how large they are.
 render() { # SCENE FILE
     case $1 in
     */tutorial/*) "$glint" render "$1" --quiet --size 320x200 -o "$2" ;;
+    */animation.*) "$glint" render "$1" --quiet --frames 0..99:12 --size 160x90 --quality 80 --montage -o "$2" ;;
     *) "$glint" render "$1" --quiet -o "$2" ;;
     esac
 }

@@ -58,7 +58,7 @@ static void check_twins(const char *yaml_path) {
     char xml_path[1024];
     struct stat status;
     size_t length = strlen(yaml_path);
-    if (length < 6 || strcmp(yaml_path + length - 5, ".yaml") != 0)
+    if (length < 12 || strcmp(yaml_path + length - 11, ".glint.yaml") != 0)
         return;
     snprintf(xml_path, sizeof xml_path, "%.*s.xml", (int)(length - 5), yaml_path);
     if (stat(xml_path, &status) != 0 && !twins_needed)

@@ -53,9 +53,9 @@ static void visit_scene(const char *path, str text, unsigned *formatted) {
 }
 
 static void test_scenes(void **state) {
-    static const char *const patterns[] = {"scenes/*.yaml",      "scenes/*.xml",        "scenes/*/*.yaml",
-                                           "scenes/*/*.xml",     "scenes/*/*/*.yaml",   "scenes/*/*/*.xml",
-                                           "scenes/*/*/*/*.xml", "scenes/*/*/*/*.yaml", NULL};
+    static const char *const patterns[] = {"scenes/*.glint.yaml", "scenes/*.xml",        "scenes/*/*.yaml",
+                                           "scenes/*/*.xml",      "scenes/*/*/*.yaml",   "scenes/*/*/*.xml",
+                                           "scenes/*/*/*/*.xml",  "scenes/*/*/*/*.yaml", NULL};
     (void)state;
     unsigned count = 0, formatted = 0;
     for (int i = 0; patterns[i]; i++)

@@ -121,7 +121,7 @@ if command -v unzip >/dev/null 2>&1; then
 else
     echo "skip what an archive holds: unzip is not installed"
 fi
-for scene in "$source"/scenes/*.yaml "$source"/scenes/*.xml "$source"/scenes/elements/*.yaml; do
+for scene in "$source"/scenes/*.glint.yaml "$source"/scenes/*.xml "$source"/scenes/elements/*.yaml; do
     [ -f "$scene" ] || continue
     name=$(basename "$scene")
     mkdir -p all

@@ -27,7 +27,7 @@ clean() {
     fi
 }
 
-clean "scenes in YAML" check -v "$source"/scenes/*.yaml "$source"/scenes/elements/*.yaml
+clean "scenes in YAML" check -v "$source"/scenes/*.glint.yaml "$source"/scenes/elements/*.yaml
 clean "scenes in XML" check -v "$source"/scenes/*.xml "$source"/scenes/elements/*.xml
 clean "the invalid corpus" check -v --limit messages=1000000 "$source"/tests/invalid/*/case.*
 clean "options" check "$source/scenes/tinyraytracer.glint.yaml" --set 'image.width=' --set 'camera.fov=200' \
