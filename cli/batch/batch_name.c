@@ -8,17 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum batch_film batch_film_of(const char *path) {
-    static const struct {
-        const char *ending;
-        enum batch_film film;
-    } rows[] = {{".y4m", BATCH_Y4M}, {".mp4", BATCH_FFMPEG}, {".webm", BATCH_FFMPEG}, {".gif", BATCH_FFMPEG}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (str_ends_with_nocase(str_from(path), rows[i].ending))
-            return rows[i].film;
-    return strcmp(path, "-") == 0 ? BATCH_Y4M : BATCH_NO_FILM;
-}
-
 static str scene_name(str path) {
     const str base = path_base(path);
     size_t end = 1;

@@ -14,17 +14,6 @@ enum {
     JOBS_MAX = 1000000
 };
 
-bool batch_is_wanted(const struct cli *cli) {
-    const struct cli_batch *b = &cli->options.batch;
-    bool film = false;
-    for (uint32_t i = 0; i < cli->options.outputs.count; i++)
-        film |= strcmp(cli->options.outputs.items[i].path, "-") != 0 &&
-                batch_film_of(cli->options.outputs.items[i].path) != BATCH_NO_FILM;
-    // Cameras that are rendered one by one would not be known when another process goes on.
-    film |= cli->options.part.resume_arg && str_equal(cli->options.camera, STR("all"));
-    return b->has_frames || b->sweeps.count || b->list || b->montage || cli->operand_count > 1 || film;
-}
-
 // ---- the scenes
 
 struct scene_of {

@@ -1,4 +1,4 @@
-// glint manual: man pages and completions, from the tables of commands and options; and glint --version.
+// glint manual: man pages and completions, from the tables of commands and options.
 #include "cli/about/about.h"
 #include "cli/manual/manual.h"
 #include "core/nearest.h"
@@ -74,15 +74,6 @@ int cmd_manual(struct cli *cli) {
         manual_page(&manual, command, &text);
     else
         (kind == 1 ? manual_bash : kind == 2 ? manual_zsh : manual_fish)(&manual, &text);
-    const int status = cli_print(cli, strbuf_view(&text));
-    strbuf_finish(&text);
-    return status;
-}
-
-int cmd_version(struct cli *cli) {
-    struct strbuf text;
-    strbuf_init(&text);
-    about_program(GLINT_VERSION, GLINT_DEVICE, &text);
     const int status = cli_print(cli, strbuf_view(&text));
     strbuf_finish(&text);
     return status;
