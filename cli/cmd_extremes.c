@@ -52,7 +52,8 @@ static int read_bounds(struct job *job) {
     struct diag_sink sink;
     diag_sink_init(&sink);
     const uint32_t source = source_add(&cli->sources, SOURCE_KIND_FILE, job->bounds_path, text);
-    const struct extreme_bounds_input input = {&cli->sources, &cli->arena, &sink, &cli->options.limits};
+    const struct reader_context input = {
+        .sources = &cli->sources, .sink = &sink, .limits = &cli->options.limits, .arena = &cli->arena};
     bool good = extreme_bounds_read(&input, source, &job->bounds);
     if (!good)
         diag_add(&sink, DIAG_OUT_OF_MEMORY, SPAN_NONE, "not enough memory for the bounds");

@@ -1,41 +1,12 @@
 #include "files/git_run.h"
 
+#include "files/spawn.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
-#include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-extern char **environ;
-
-// Signals that this program ignores are not ignored by git.
-static int start(pid_t *child, const char *const *words, int out, int err) {
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    sigset_t defaults;
-    int error = posix_spawn_file_actions_init(&actions);
-    if (error)
-        return error;
-    error = posix_spawnattr_init(&attributes);
-    if (error) {
-        posix_spawn_file_actions_destroy(&actions);
-        return error;
-    }
-    sigemptyset(&defaults);
-    sigaddset(&defaults, SIGPIPE);
-    sigaddset(&defaults, SIGXFSZ);
-    posix_spawnattr_setsigdefault(&attributes, &defaults);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-    error = posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
-    error = error ? error : posix_spawn_file_actions_adddup2(&actions, err, STDERR_FILENO);
-    error =
-        error ? error : posix_spawnp(child, words[0], &actions, &attributes, (char *const *)words, environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    return error;
-}
 
 // Both streams are read as they come: git must not wait for one while the other is full.
 static void read_both(struct git_answer *answer, const int *ends) {
@@ -59,7 +30,7 @@ static void read_both(struct git_answer *answer, const int *ends) {
 
 static void run_between(struct git_answer *answer, const char *const *words, const int *out, const int *err) {
     pid_t child = 0;
-    answer->error = start(&child, words, out[1], err[1]);
+    answer->error = spawn(&child, words, &(struct spawn_streams){-1, out[1], err[1]}, false);
     close(out[1]);
     close(err[1]);
     if (answer->error)

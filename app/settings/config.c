@@ -1,8 +1,8 @@
 #include "app/settings/config.h"
 
 #include "app/settings/keys.h"
+#include "app/settings/settings_file.h"
 #include "core/unicode.h"
-#include "parser/tree/reader.h"
 
 #include <string.h>
 
@@ -238,63 +238,17 @@ static void unknown_setting(struct binder *b, tree_index key, const struct neare
                 arena_format(b->input->arena, "the settings are %.*s", STR_ARG(all)));
 }
 
-static void bind(struct binder *b) {
-    for (tree_index key = tree_first(b->tree, b->tree->root); key; key = tree_next_key(b->tree, key)) {
-        struct nearest search;
-        if (is_reported(b, key))
-            continue;
-        const struct key_row *setting = key_find(&SETTING_KEYS, tree_text(b->tree, key), &search);
-        if (setting)
-            take_setting(b, setting, key, tree_value(b->tree, key));
-        else
-            unknown_setting(b, key, &search);
-    }
-}
-
-// The reader's messages are about scenes: those for an empty file, and for one that is not a map, are
-// replaced here.
-static bool keep_for_config(void *context, struct diag *item) {
-    (void)context;
-    if (item->code == DIAG_NOT_A_SCENE) {
-        item->code = DIAG_CONFIG_VALUE;
-        item->message = STR("a configuration is a map of settings");
-        item->help =
-            STR("write a setting, such as fail_on: warning; an empty file marks its folder as the root");
-    }
-    return item->code != DIAG_EMPTY_FILE;
-}
-
-struct reading {
-    struct reader_context context;
-    uint32_t source;
-    struct tree tree;
-    bool readable;
-};
-
-static void run_reader(void *context) {
-    struct reading *r = context;
-    r->readable = read_yaml(&r->context, r->source, &r->tree);
-}
-
-static void read_and_bind(struct binder *b, uint32_t source, const struct limits *limits) {
-    struct diag_sink sink;
-    struct arena *arena = b->input->arena;
-    struct reading reading = {
-        .context = {.sources = b->input->sources, .sink = &sink, .limits = limits, .arena = arena},
-        .source = source};
-    diag_sink_init(&sink);
-    enum arena_fault fault = arena_guarded(arena, run_reader, &reading);
-    if (fault) {
-        diag_sink_finish(&sink);
-        arena_raise(arena, fault);
-    }
-    diag_filter(&sink, keep_for_config, NULL);
-    diag_merge(b->input->sink, &sink);
-    diag_sink_finish(&sink);
-    b->tree = &reading.tree;
-    if (reading.readable)
-        bind(b);
-    b->tree = NULL;
+static void take_key(void *binder, const struct tree *tree, tree_index key) {
+    struct binder *b = binder;
+    struct nearest search;
+    b->tree = tree;
+    if (is_reported(b, key))
+        return;
+    const struct key_row *setting = key_find(&SETTING_KEYS, tree_text(tree, key), &search);
+    if (setting)
+        take_setting(b, setting, key, tree_value(tree, key));
+    else
+        unknown_setting(b, key, &search);
 }
 
 // The path of the configuration, as a user who wrote this `scene_path` would write it.
@@ -311,11 +265,18 @@ static str path_shown(const struct config_input *input, str scene_path, str conf
 }
 
 void config_read(const struct config_input *input, uint32_t source, str path, struct config *config) {
-    struct limits limits = limits_default();
+    static const struct settings_words words = {
+        "a configuration is a map of settings",
+        "write a setting, such as fail_on: warning; an empty file marks its folder as the root"};
+    const struct limits limits = limits_default();
     *config = (struct config){.path = path, .limits = limits};
-    str folder = files_canonical(input->files, path_folder(path));
-    struct binder binder = {.input = input, .config = config, .folder = folder};
-    read_and_bind(&binder, source, &limits);
+    struct binder binder = {
+        .input = input, .config = config, .folder = files_canonical(input->files, path_folder(path))};
+    const struct reader_context reader = {
+        .sources = input->sources, .sink = input->sink, .limits = &limits, .arena = input->arena};
+    const enum arena_fault fault = settings_read(&reader, source, &words, take_key, &binder);
+    if (fault != ARENA_FAULT_NONE)
+        arena_raise(input->arena, fault);
 }
 
 void config_read_file(const struct config_input *input, str path, str shown, struct config *config) {

@@ -1,13 +1,13 @@
 #include "app/settings/extreme_bounds.h"
 
 #include "app/settings/keys.h"
+#include "app/settings/settings_file.h"
 #include "core/number.h"
-#include "parser/tree/reader.h"
 
 #include <math.h>
 
 struct binder {
-    const struct extreme_bounds_input *input;
+    const struct reader_context *input;
     const struct tree *tree;
     struct extreme_bounds *out;
 };
@@ -74,44 +74,23 @@ static void take_axis(struct binder *b, tree_index key) {
         bad_value(b, list, "an axis must have a list of bounds, such as [{off: 0.0005}]");
 }
 
-// The reader knows scenes: its message about a file that is not a map is replaced here.
-static bool keep_for_bounds(void *context, struct diag *item) {
-    (void)context;
-    if (item->code == DIAG_NOT_A_SCENE) {
-        item->code = DIAG_CONFIG_VALUE;
-        item->message = STR("bounds are a map from axes to lists of bounds");
-        item->help = STR("write an axis, such as move: [{off: 0.0005}]");
-    }
-    return item->code != DIAG_EMPTY_FILE;
+static void take_key(void *binder, const struct tree *tree, tree_index key) {
+    struct binder *b = binder;
+    b->tree = tree;
+    take_axis(b, key);
 }
 
-struct reading {
-    struct binder binder;
-    uint32_t source;
-    struct tree tree;
-};
-
-static void read_and_bind(void *context) {
-    struct reading *r = context;
-    const struct extreme_bounds_input *input = r->binder.input;
-    const struct reader_context reader = {
-        .sources = input->sources, .sink = input->sink, .limits = input->limits, .arena = input->arena};
-    if (read_yaml(&reader, r->source, &r->tree))
-        for (tree_index key = tree_first(&r->tree, r->tree.root); key; key = tree_next_key(&r->tree, key))
-            take_axis(&r->binder, key);
-}
-
-bool extreme_bounds_read(const struct extreme_bounds_input *input, uint32_t source,
-                         struct extreme_bounds *out) {
-    struct reading reading = {.binder = {input, &reading.tree, out}, .source = source};
+bool extreme_bounds_read(const struct reader_context *input, uint32_t source, struct extreme_bounds *out) {
+    static const struct settings_words words = {"bounds are a map from axes to lists of bounds",
+                                                "write an axis, such as move: [{off: 0.0005}]"};
+    struct binder binder = {.input = input, .out = out};
     *out = (struct extreme_bounds){0};
-    if (arena_guarded(input->arena, read_and_bind, &reading) != ARENA_FAULT_NONE)
+    if (settings_read(input, source, &words, take_key, &binder) != ARENA_FAULT_NONE)
         return false;
-    diag_filter(input->sink, keep_for_bounds, NULL);
     // A run without bounds would pass whatever it measured.
     if (out->count == 0 && input->sink->errors == 0) {
         diag_add(input->sink, DIAG_CONFIG_VALUE, (span){source, 0, 0}, "the file contains no bounds");
-        diag_help(input->sink, "write an axis, such as move: [{off: 0.0005}]");
+        diag_help(input->sink, "%s", words.help);
     }
     diag_sort(input->sink);
     return true;

@@ -10,25 +10,15 @@
 #ifndef GLINT_APP_SETTINGS_EXTREME_BOUNDS_H
 #define GLINT_APP_SETTINGS_EXTREME_BOUNDS_H
 
-#include "core/limits.h"
-#include "diag/diag.h"
-#include "diag/source.h"
 #include "measure/extremes/extremes.h"
+#include "parser/tree/reader.h"
 
 struct extreme_bounds {
     struct extreme_bound *items;
     uint32_t count, capacity;
 };
 
-struct extreme_bounds_input {
-    struct source_set *sources;
-    struct arena *arena;
-    struct diag_sink *sink;
-    const struct limits *limits;
-};
-
 // Reads a source that is in the set. false: no memory.
-bool extreme_bounds_read(const struct extreme_bounds_input *input, uint32_t source,
-                         struct extreme_bounds *out);
+bool extreme_bounds_read(const struct reader_context *input, uint32_t source, struct extreme_bounds *out);
 
 #endif

@@ -1,14 +1,14 @@
 #include "app/settings/test_file.h"
 
 #include "app/settings/keys.h"
+#include "app/settings/settings_file.h"
 #include "core/number.h"
-#include "parser/tree/reader.h"
 
 #include <math.h>
 #include <string.h>
 
 struct binder {
-    const struct test_file_input *input;
+    const struct reader_context *input;
     const struct tree *tree;
     struct test_file *out;
 };
@@ -182,7 +182,9 @@ static void take_entries(struct binder *b, const struct key_row *row, tree_index
         take_entry(b, key);
 }
 
-static void take_key(struct binder *b, tree_index key) {
+static void take_key(void *binder, const struct tree *tree, tree_index key) {
+    struct binder *b = binder;
+    b->tree = tree;
     const struct key_row *row = find_key(b, &TEST_KEYS, key);
     const tree_index value = tree_value(b->tree, key);
     if (!row || take_setting(b, row, value, &b->out->all))
@@ -195,34 +197,6 @@ static void take_key(struct binder *b, tree_index key) {
         take_text(b, row, value, &b->out->pictures, &b->out->pictures_at);
 }
 
-// The reader knows scenes: its message about a file that is not a map is replaced here, and an empty file
-// means what no file does.
-static bool keep_for_tests(void *context, struct diag *item) {
-    (void)context;
-    if (item->code == DIAG_NOT_A_SCENE) {
-        item->code = DIAG_CONFIG_VALUE;
-        item->message = STR("the file of 'glint test' must be a map of settings");
-        item->help = STR("write a setting, such as size: 320x240");
-    }
-    return item->code != DIAG_EMPTY_FILE;
-}
-
-struct reading {
-    struct binder binder;
-    uint32_t source;
-    struct tree tree;
-};
-
-static void read_and_bind(void *context) {
-    struct reading *r = context;
-    const struct test_file_input *input = r->binder.input;
-    const struct reader_context reader = {
-        .sources = input->sources, .sink = input->sink, .limits = input->limits, .arena = input->arena};
-    if (read_yaml(&reader, r->source, &r->tree))
-        for (tree_index key = tree_first(&r->tree, r->tree.root); key; key = tree_next_key(&r->tree, key))
-            take_key(&r->binder, key);
-}
-
 void test_file_init(struct test_file *file) {
     struct measure_bounds bounds = {0};
     bounds.has[METRIC_SHARE] = bounds.has[METRIC_MAE] = true;
@@ -231,11 +205,12 @@ void test_file_init(struct test_file *file) {
     *file = (struct test_file){.all = {.bounds = bounds, .has_threshold = true, .threshold = TEST_THRESHOLD}};
 }
 
-bool test_file_read(const struct test_file_input *input, uint32_t source, struct test_file *out) {
-    struct reading reading = {.binder = {input, &reading.tree, out}, .source = source};
-    if (arena_guarded(input->arena, read_and_bind, &reading) != ARENA_FAULT_NONE)
+bool test_file_read(const struct reader_context *input, uint32_t source, struct test_file *out) {
+    static const struct settings_words words = {"the file of 'glint test' must be a map of settings",
+                                                "write a setting, such as size: 320x240"};
+    struct binder binder = {.input = input, .out = out};
+    if (settings_read(input, source, &words, take_key, &binder) != ARENA_FAULT_NONE)
         return false;
-    diag_filter(input->sink, keep_for_tests, NULL);
     diag_sort(input->sink);
     return true;
 }

@@ -13,9 +13,7 @@
 #ifndef GLINT_APP_SETTINGS_TEST_FILE_H
 #define GLINT_APP_SETTINGS_TEST_FILE_H
 
-#include "core/limits.h"
-#include "diag/diag.h"
-#include "diag/source.h"
+#include "parser/tree/reader.h"
 #include "picture/metrics/compare_report.h"
 
 #define TEST_FILE_NAME "glint-test.yaml"
@@ -59,17 +57,10 @@ struct test_file {
     } entries;
 };
 
-struct test_file_input {
-    struct source_set *sources;
-    struct arena *arena;
-    struct diag_sink *sink;
-    const struct limits *limits;
-};
-
 // What holds where there is no file.
 void test_file_init(struct test_file *file);
 // Reads a source that is in the set over it. false: no memory.
-bool test_file_read(const struct test_file_input *input, uint32_t source, struct test_file *out);
+bool test_file_read(const struct reader_context *input, uint32_t source, struct test_file *out);
 // `own` over `all`: a bound replaces that of the same metric, and assignments come after those of all.
 struct test_settings test_settings_join(const struct test_settings *all, const struct test_settings *own,
                                         struct arena *arena);

@@ -1,19 +1,17 @@
 #include "cli/batch/film.h"
 
 #include "core/heap.h"
+#include "files/spawn.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
 #include <signal.h>
-#include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-extern char **environ;
 
 enum {
     SAID_LINES = 4,
@@ -109,37 +107,6 @@ static int begin_y4m(struct film *film) {
 
 // ---- ffmpeg
 
-static int start(struct film *film, const char *const *words, int in) {
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    sigset_t defaults;
-    int error = posix_spawn_file_actions_init(&actions);
-    if (error)
-        return error;
-    error = posix_spawnattr_init(&attributes);
-    if (error) {
-        posix_spawn_file_actions_destroy(&actions);
-        return error;
-    }
-    sigemptyset(&defaults);
-    sigaddset(&defaults, SIGPIPE);
-    sigaddset(&defaults, SIGXFSZ);
-    posix_spawnattr_setsigdefault(&attributes, &defaults);
-    // Ctrl-C is for glint, which then ends ffmpeg.
-    posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-    error = posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
-    error = error ? error : posix_spawn_file_actions_adddup2(&actions, film->said, STDOUT_FILENO);
-    error = error ? error : posix_spawn_file_actions_adddup2(&actions, film->said, STDERR_FILENO);
-    error = error
-                ? error
-                : posix_spawnp(&film->child, words[0], &actions, &attributes, (char *const *)words, environ);
-    film->child = error ? 0 : film->child;
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    return error;
-}
-
 static int no_ffmpeg(struct film *film, int error) {
     cli_error(film->cli, DIAG_OUTPUT, film->path,
               error == ENOENT
@@ -232,7 +199,9 @@ static int start_ffmpeg(struct film *film) {
     fcntl(ends[0], F_SETFD, FD_CLOEXEC);
     fcntl(ends[1], F_SETFD, FD_CLOEXEC);
     fcntl(film->said, F_SETFD, FD_CLOEXEC);
-    const int error = start(film, words, ends[0]);
+    // Ctrl-C is for glint, which then ends ffmpeg.
+    const int error =
+        spawn(&film->child, words, &(struct spawn_streams){ends[0], film->said, film->said}, true);
     close(ends[0]);
     film->pipe = ends[1];
     return error ? no_ffmpeg(film, error) : CLI_OK;

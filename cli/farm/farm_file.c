@@ -1,5 +1,6 @@
 // The plan as a file of its folder: lines of a word and its value, as the head of a part has them.
 #include "app/frames/frame_name.h"
+#include "app/parts/part_file.h"
 #include "cli/farm/farm.h"
 #include "files/stream.h"
 
@@ -67,30 +68,6 @@ int farm_save(struct cli *cli, const struct farm_plan *plan, str script) {
 
 // ---- reading
 
-// The value of the line that begins with a word; NULL: the next line is another one.
-static char *take_line(char **text, const char *word) {
-    char *line = *text, *end = strchr(line, '\n');
-    const size_t length = strlen(word);
-    if (!end || strncmp(line, word, length) != 0 || line[length] != ' ')
-        return NULL;
-    *end = '\0';
-    *text = end + 1;
-    return line + length + 1;
-}
-
-static bool take_numbers(char **text, const char *word, uint32_t *out, int count) {
-    const char *line = take_line(text, word);
-    for (int i = 0; line && i < count; i++) {
-        char *end;
-        const unsigned long value = strtoul(line, &end, 10);
-        if (end == line || value > INT32_MAX)
-            return false;
-        out[i] = (uint32_t)value;
-        line = end;
-    }
-    return line && *line == '\0';
-}
-
 static int engine_of(const char *name) {
     for (int i = 0; name && farm_engines[i]; i++)
         if (strcmp(farm_engines[i], name) == 0)
@@ -111,10 +88,10 @@ static bool read_plan(char *text, struct farm_plan *plan) {
     if (strncmp(text, PLAN_HEAD, strlen(PLAN_HEAD)) != 0)
         return false;
     text += strlen(PLAN_HEAD);
-    const int engine = engine_of(take_line(&text, "engine"));
-    plan->has_frames = take_numbers(&text, "frames", frames, 3);
-    if (engine < 0 || !take_numbers(&text, "tiles", &plan->tiles, 1) ||
-        !take_numbers(&text, "chunk", &plan->chunk, 1) || frames[1] < frames[0] || frames[2] == 0 ||
+    const int engine = engine_of(part_take_line(&text, "engine"));
+    plan->has_frames = part_take_numbers(&text, "frames", frames, 3);
+    if (engine < 0 || !part_take_numbers(&text, "tiles", &plan->tiles, 1) ||
+        !part_take_numbers(&text, "chunk", &plan->chunk, 1) || frames[1] < frames[0] || frames[2] == 0 ||
         plan->tiles == 0 || plan->chunk == 0)
         return false;
     plan->engine = (enum farm_engine)engine;
@@ -122,10 +99,10 @@ static bool read_plan(char *text, struct farm_plan *plan) {
     plan->last = (int32_t)frames[1];
     plan->step = (int32_t)frames[2];
     plan->frames = (frames[1] - frames[0]) / frames[2] + 1;
-    plan->root = take_line(&text, "root");
-    plan->folder = plan->root ? take_line(&text, "folder") : NULL;
-    plan->output = plan->folder ? take_line(&text, "output") : NULL;
-    plan->part = plan->output ? take_line(&text, "part") : NULL;
+    plan->root = part_take_line(&text, "root");
+    plan->folder = plan->root ? part_take_line(&text, "folder") : NULL;
+    plan->output = plan->folder ? part_take_line(&text, "output") : NULL;
+    plan->part = plan->output ? part_take_line(&text, "part") : NULL;
     return is_name(plan->output, plan) && (plan->tiles == 1) == (plan->part == NULL) &&
            (!plan->part || is_name(plan->part, plan)) && *text == '\0';
 }

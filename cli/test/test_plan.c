@@ -49,7 +49,8 @@ static int read_file(struct test_run *run) {
     struct diag_sink sink;
     diag_sink_init(&sink);
     const uint32_t source = source_add(&cli->sources, SOURCE_KIND_FILE, run->file_path, text);
-    const struct test_file_input input = {&cli->sources, &cli->arena, &sink, &cli->options.limits};
+    const struct reader_context input = {
+        .sources = &cli->sources, .sink = &sink, .limits = &cli->options.limits, .arena = &cli->arena};
     if (!test_file_read(&input, source, &run->file))
         diag_add(&sink, DIAG_OUT_OF_MEMORY, SPAN_NONE, "not enough memory for the bounds");
     const bool good = sink.errors == 0;

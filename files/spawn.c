@@ -1,0 +1,51 @@
+#include "files/spawn.h"
+
+#include <signal.h>
+#include <spawn.h>
+#include <unistd.h>
+
+extern char **environ;
+
+static int set_streams(posix_spawn_file_actions_t *actions, const struct spawn_streams *streams) {
+    const int from[] = {streams->in, streams->out, streams->err};
+    const int to[] = {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO};
+    int error = 0;
+    for (int i = 0; i < 3 && !error; i++)
+        if (from[i] >= 0)
+            error = posix_spawn_file_actions_adddup2(actions, from[i], to[i]);
+    return error;
+}
+
+static int start(pid_t *child, const char *const *words, const posix_spawn_file_actions_t *actions,
+                 bool own_group) {
+    posix_spawnattr_t attributes;
+    sigset_t defaults;
+    int error = posix_spawnattr_init(&attributes);
+    if (error)
+        return error;
+    sigemptyset(&defaults);
+    sigaddset(&defaults, SIGPIPE);
+    sigaddset(&defaults, SIGXFSZ);
+    posix_spawnattr_setsigdefault(&attributes, &defaults);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(&attributes,
+                             (short)(POSIX_SPAWN_SETSIGDEF | (own_group ? POSIX_SPAWN_SETPGROUP : 0)));
+    error = posix_spawnp(child, words[0], actions, &attributes, (char *const *)words, environ);
+    posix_spawnattr_destroy(&attributes);
+    return error;
+}
+
+int spawn(pid_t *child, const char *const *words, const struct spawn_streams *streams, bool own_group) {
+    posix_spawn_file_actions_t actions;
+    *child = 0;
+    int error = posix_spawn_file_actions_init(&actions);
+    if (error)
+        return error;
+    error = set_streams(&actions, streams);
+    if (!error)
+        error = start(child, words, &actions, own_group);
+    if (error)
+        *child = 0;
+    posix_spawn_file_actions_destroy(&actions);
+    return error;
+}

@@ -1,0 +1,17 @@
+// Starts another program, found by PATH. Signals that this one ignores are not ignored by it.
+#ifndef GLINT_FILES_SPAWN_H
+#define GLINT_FILES_SPAWN_H
+
+#include <stdbool.h>
+#include <sys/types.h>
+
+// What the program has as standard input, output and error; -1: what this one has.
+struct spawn_streams {
+    int in, out, err;
+};
+
+// `words`, the first of which is the program's name, end with NULL. `own_group`: Ctrl-C does not reach it.
+// Returns 0, or errno; *child, the caller's to wait for, is 0 then.
+int spawn(pid_t *child, const char *const *words, const struct spawn_streams *streams, bool own_group);
+
+#endif
