@@ -11,6 +11,15 @@ static const char *const feature_words[PRECISION_FEATURES] = {
     [PRECISION_HEIGHT] = "lowest camera",
 };
 
+const char *precision_feature_words(enum precision_feature feature) {
+    return feature_words[feature];
+}
+
+const char *precision_setting_word(unsigned setting) {
+    static const char *const words[] = {"auto", "single", "double"};
+    return words[setting];
+}
+
 static void put_body(const struct session *session, uint32_t body, uint32_t triangle, struct strbuf *out) {
     struct where where;
     bool found = where_find(session, body, triangle, &where);
@@ -52,11 +61,10 @@ static void put_trial(const struct precision_choice *choice, struct strbuf *out)
 
 void precision_words(const struct session *session, const struct precision_choice *choice,
                      struct strbuf *out) {
-    static const char *const settings[] = {"auto", "single", "double"};
-    const unsigned setting = session->scene->trace.precision;
+    const char *setting = precision_setting_word(session->scene->trace.precision);
     const struct precision_report *report = &choice->report;
     strbuf_format(out, "precision   %s", precision_is_double(session->scene, choice) ? "double" : "single");
-    strbuf_format(out, ", the setting is %s; ", settings[setting]);
+    strbuf_format(out, ", the setting is %s; ", setting);
     put_trial(choice, out);
     for (int i = 0; i < PRECISION_FEATURES; i++) {
         if (!report->least[i].any)

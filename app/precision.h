@@ -32,6 +32,10 @@ bool precision_forecast(struct session *session, const struct flat_input *input,
 // Warns (W417) if the scene asks for single precision and needs double. The session's arena must be
 // guarded.
 void precision_check(struct session *session);
+// "shortest edge"
+const char *precision_feature_words(enum precision_feature feature);
+// "auto", of enum ir_precision.
+const char *precision_setting_word(unsigned setting);
 // What was measured, what it means, and which body decides: lines of `glint inspect`.
 void precision_words(const struct session *session, const struct precision_choice *choice,
                      struct strbuf *out);

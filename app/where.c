@@ -80,32 +80,30 @@ void where_report_fault(struct session *session, const struct where_fault *fault
     strbuf_finish(&body);
 }
 
-static void media_words(struct session *session, const struct scene_media_reason *reason,
+static span media_words(const struct session *session, const struct scene_media_reason *reason,
                         struct strbuf *out) {
     struct where a, b;
     if (reason->need == SCENE_MEDIA_MANY || !where_find(session, reason->a, 0, &a) ||
         !where_find(session, reason->b, 0, &b)) {
-        strbuf_cstr(out, "bodies that refract are too many to be compared\n");
-        return;
+        strbuf_cstr(out, "bodies that refract are too many to be compared");
+        return SPAN_NONE;
     }
-    const struct source_place place = source_locate(&session->sources, b.at);
-    strbuf_format(out, "%.*s:%u:%u: ", STR_ARG(place.path), place.line, place.column);
     where_body_words(&b, out);
     if (reason->need == SCENE_MEDIA_ATTENUATION) {
-        strbuf_cstr(out, " is coloured inside\n");
-        return;
+        strbuf_cstr(out, " is coloured inside");
+        return b.at;
     }
     strbuf_cstr(out, " may share a place with ");
     where_body_words(&a, out);
-    strbuf_char(out, '\n');
+    return b.at;
 }
 
-void where_feature_words(struct session *session, uint64_t feature, const struct scene_media_reason *reason,
-                         struct strbuf *out) {
+span where_feature_words(const struct session *session, uint64_t feature,
+                         const struct scene_media_reason *reason, struct strbuf *out) {
     if (feature == FEATURE_MEDIA)
-        media_words(session, reason, out);
-    else
-        strbuf_cstr(out, "a material from a mesh's material file\n");
+        return media_words(session, reason, out);
+    strbuf_cstr(out, "a material from a mesh's material file");
+    return SPAN_NONE;
 }
 
 bool where_camera_fits(struct session *session, uint32_t camera, const struct view *view) {

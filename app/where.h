@@ -31,9 +31,9 @@ void where_body_words(const struct where *where, struct strbuf *out);
 void where_material_words(const struct where *where, struct strbuf *out);
 
 // Why a feature is on that nothing written in the scene asks for: the media that may share a place, or a
-// mesh's materials.
-void where_feature_words(struct session *session, uint64_t feature, const struct scene_media_reason *reason,
-                         struct strbuf *out);
+// mesh's materials. The words are added to `out`; returns the place that they are about, or SPAN_NONE.
+span where_feature_words(const struct session *session, uint64_t feature,
+                         const struct scene_media_reason *reason, struct strbuf *out);
 
 // false: the camera is inside more media than a ray can be, which is an error in the sink.
 bool where_camera_fits(struct session *session, uint32_t camera, const struct view *view);

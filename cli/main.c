@@ -52,7 +52,7 @@ static const struct cli_command commands[] = {
      "With --ir, prints the scene as glint understood it: the same text for two files that mean the same.\n\n"
      "Of a picture that glint rendered: its scene's hash, glint's version, the device, settings, the "
      "command\n"
-     "that makes it again, and its accuracy (docs/provenance.md). --format is text or json.\n\n"
+     "that makes it again, and its accuracy (docs/provenance.md). --format is text or json, of both.\n\n"
      "  glint inspect scenes/showcase.glint.yaml\n"
      "  glint inspect picture.png\n",
      1, 1, cmd_inspect},

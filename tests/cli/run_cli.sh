@@ -140,6 +140,8 @@ expect "a limit is obeyed" 3 - 'E501' "$glint" check good.yaml --limit scene-byt
 expect "inspect" 0 'spheres +1' '' "$glint" inspect good.yaml
 expect "inspect names the reason" 0 'good.yaml:[0-9]+:[0-9]+: ' '' "$glint" inspect good.yaml
 expect "inspect shows no refraction" 0 'not required:.* refraction' '' "$glint" inspect good.yaml
+expect "inspect as JSON" 0 '"spheres": 1' '' "$glint" inspect good.yaml --format json
+expect "which says where a feature is switched on" 0 '"place": \{"file": "good.yaml", "line": [0-9]+, "column": [0-9]+\}' '' "$glint" inspect good.yaml --format json
 expect "inspect --ir" 0 'radius: 1' - "$glint" inspect --ir good.yaml
 expect "explain a code" 0 'range' - "$glint" explain e206
 expect "explain lists codes" 0 '^E206  error    a number outside its range$' - "$glint" explain --list

@@ -120,5 +120,5 @@ expect "a broken one" 1 - 'broken.png:1:1: error' "$glint" inspect broken.png
 cp scene.yaml scene.png
 expect "a scene that is named as a picture" 1 - 'is not a' "$glint" inspect scene.png
 expect "an option of scenes" 2 - "'--ir' would have no effect" "$glint" inspect a.png --ir
-expect "and one of pictures" 2 - "'--format' would have no effect" "$glint" inspect scene.yaml --format json
+expect "and one of neither: scenes have a language of their own" 2 - "'--format' would have no effect" "$glint" inspect scene.yaml --ir --format json
 exit $failed

@@ -37,6 +37,19 @@ spheres: [{center: [-0.9, 0, 0], radius: 0.9, material: glass}]
 models: [{mesh: meshes/face.obj, translation: [0.9, 0, 0]}]
 S
 
+cat >twins.yaml <<'S'
+glint: 1
+include: [parts.yaml]
+camera: {position: [0, 0, 6]}
+models:
+  - {mesh: meshes/face.obj, translation: [0.9, 0, 0]}
+  - {mesh: meshes/face.obj, translation: [-0.9, 0, 0]}
+spheres:
+  - {center: [0, 0, -5], radius: 1, material: glass}
+  - {center: [0, 0.5, -5], radius: 1, material: glass}
+S
+printf 'glint: 1\nlights: [{position: [0, 1, 0]}]\n' >empty.yaml
+
 json deps 0 "$glint" deps scene.yaml --format json
 json deps_missing 3 "$glint" deps none.yaml scene.yaml --format json
 by_schema deps deps.json deps_missing.json
@@ -60,6 +73,10 @@ json verify 0 "$glint" verify made.hdr --format json
 json verify_changed 1 "$glint" verify made.hdr other.yaml --format json
 json verify_device 0 "$glint" verify moved.hdr --device reference --format json
 by_schema verify verify.json verify_changed.json verify_device.json
+json inspect_scene 0 "$glint" inspect scene.yaml --format json
+json inspect_twins 0 "$glint" inspect twins.yaml --format json
+json inspect_empty 0 "$glint" inspect empty.yaml --format json
+by_schema inspect-scene inspect_scene.json inspect_twins.json inspect_empty.json
 json inspect 0 "$glint" inspect made.hdr --format json
 json inspect_none 0 "$glint" inspect exact.pfm --format json
 mkdir tested
