@@ -277,7 +277,7 @@ static const struct picture *load_background(struct loader *loader, struct asset
     if (out->pixels_later)
         return &entry->picture;
     loader_complete_image(loader, &file, background->image, entry);
-    const struct picture *picture = loader_judge_image(&file, entry);
+    const struct picture *picture = loader_judge_image(&file, entry, false);
     out->pixels_skipped |= picture && entry->kind == STORE_PICTURE_SKIPPED;
     return picture;
 }
@@ -294,7 +294,7 @@ void assets_settle(struct assets *assets) {
     }
     if (file->errors == 0)
         store_complete(assets->hold, entry);
-    assets->background = loader_judge_image(file, entry);
+    assets->background = loader_judge_image(file, entry, false);
 }
 
 static bool has_background_image(const struct assets_input *input) {

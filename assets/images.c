@@ -42,6 +42,7 @@ static void decode_image(struct asset_file *file, str name, struct store_entry *
     else if (!fault && entry->kind == STORE_PICTURE_CHECKED)
         fault = picture_check(file->text, &header);
     entry->picture.ignored = header.ignored;
+    entry->picture.clear_pixels = header.clear_pixels;
     if (fault == picture_no_memory)
         asset_report_memory(file, ARENA_FAULT_SYSTEM);
     else
@@ -76,7 +77,18 @@ struct store_entry *loader_find_image(struct loader *loader, const struct file_r
     return entry ? entry : store_add(loader->hold, kinds[pixels], identity);
 }
 
-const struct picture *loader_judge_image(struct asset_file *file, struct store_entry *entry) {
+static void report_clear(struct asset_file *file, const struct picture *picture) {
+    const double share = (double)picture->clear_pixels / ((double)picture->width * picture->height);
+    if (asset_report_line(file, DIAG_IMAGE_CLEAR, 0,
+                          "the image is not opaque in %.3g %% of its pixels, and is drawn as if it were",
+                          100 * share))
+        diag_help(
+            file->input->sink,
+            "its pixels show the colours that they have beneath their alpha; cut the shape out as a mesh, "
+            "or save the image without alpha");
+}
+
+const struct picture *loader_judge_image(struct asset_file *file, struct store_entry *entry, bool is_solid) {
     if (entry->picture_fault)
         asset_report_line(file, DIAG_IMAGE_BROKEN, 0, "the image cannot be decoded: %s",
                           entry->picture_fault);
@@ -84,6 +96,8 @@ const struct picture *loader_judge_image(struct asset_file *file, struct store_e
         return NULL;
     if (entry->picture.ignored)
         asset_report_line(file, DIAG_IMAGE_CHUNKS, 0, "the image's %s ignored", entry->picture.ignored);
+    if (entry->picture.clear_pixels && !is_solid)
+        report_clear(file, &entry->picture);
     return &entry->picture;
 }
 

@@ -88,8 +88,9 @@ struct store_entry *loader_read_image(struct loader *loader, struct asset_file *
 struct store_entry *loader_find_image(struct loader *loader, const struct file_read *identity);
 void loader_complete_image(struct loader *loader, struct asset_file *file, str name,
                            struct store_entry *entry);
-// What is known of the picture once its pixels are; NULL: it cannot be used.
-const struct picture *loader_judge_image(struct asset_file *file, struct store_entry *entry);
+// What is known of the picture once its pixels are; NULL: it cannot be used. `is_solid`: whoever names it
+// says that its alpha means nothing, or that it does.
+const struct picture *loader_judge_image(struct asset_file *file, struct store_entry *entry, bool is_solid);
 // textures.c: whether the image of a material file's material is used; the images of all materials; and the
 // coordinates of a model's mesh where one of its materials has one.
 void loader_settle_image(struct loader *loader, uint32_t material);

@@ -104,7 +104,8 @@ static const struct picture *load_image(struct loader *loader, struct assets *ou
     struct store_entry *entry = loader_read_image(loader, &image->file, name, &identity);
     if (!entry)
         return NULL;
-    image->picture = loader_judge_image(&image->file, entry);
+    // A material of a glTF file says whether alpha counts.
+    image->picture = loader_judge_image(&image->file, entry, source->document != NULL);
     image->next = loader->images;
     loader->images = image;
     out->pixels_skipped |= image->picture && entry->kind == STORE_PICTURE_SKIPPED;

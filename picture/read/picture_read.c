@@ -65,5 +65,6 @@ const char *picture_decode(str bytes, struct picture_header *header, struct pict
     out->pixels =
         make_rows(bytes, header, out->size_bytes, header->width * picture_pixel_bytes(out->depth), &fault);
     out->ignored = header->ignored;
+    out->clear_pixels = header->clear_pixels;
     return fault;
 }

@@ -20,6 +20,7 @@ struct picture_header {
     uint64_t decoder_bytes; // that decoding takes at most besides the pixels
     size_t data_at;         // HDR: where the pixels begin
     const char *ignored;    // as in struct picture
+    uint64_t clear_pixels;  // likewise
 };
 
 // What is returned where the system has no memory: not a fault of the file.
@@ -35,7 +36,7 @@ uint64_t picture_memory(const struct picture_header *header, uint64_t more_bytes
 // What a picture with this header is without its pixels.
 struct picture picture_of_header(const struct picture_header *header);
 // Decodes every row and keeps none. NULL, or what is wrong. What pixels have that is not used is added to
-// `ignored` of the header, in both of these.
+// `ignored` and `clear_pixels` of the header, in both of these.
 const char *picture_check(str bytes, struct picture_header *header);
 // Decodes; returns NULL, or what is wrong, and then *out has no pixels. picture_finish frees them.
 const char *picture_decode(str bytes, struct picture_header *header, struct picture *out);

@@ -12,6 +12,7 @@ enum {
     FRAME = 12, // length, type and checksum of a chunk
     DATA_SLACK = 64 << 10,
     MEMORY_SLACK = 1 << 20,
+    COLORS = 3,
     ROWS = 4, // that libpng has at a time, as wide as a row can be
 };
 
@@ -94,7 +95,7 @@ static const char *check_chunks(str bytes, uint64_t most_data) {
 struct job {
     const char *at; // the next byte that libpng has not asked for
     size_t left;
-    const struct picture_header *header;
+    struct picture_header *header;
     struct picture_rows rows;
     size_t row_bytes;     // of a row as it is kept
     uint64_t memory_left; // that libpng may still ask for
@@ -147,22 +148,38 @@ static void set_up(png_structp png, struct job *job) {
     png_set_user_limits(png, INT32_MAX, INT32_MAX);
 }
 
-static void ask_for_rgb(png_structp png) {
+// Takes off the alpha of a row, and counts the pixels where it is not full. It is libpng's last step, so that
+// an interlaced picture's pixels come by once.
+static void take_alpha(png_structp png, png_row_infop row, png_bytep data) {
+    struct job *job = png_get_user_transform_ptr(png);
+    const size_t color = (size_t)COLORS * row->bit_depth / 8, pixel = color / COLORS * (COLORS + 1);
+    if (row->channels != COLORS + 1)
+        return;
+    for (png_uint_32 x = 0; x < row->width; x++) {
+        const png_bytep from = data + x * pixel;
+        job->header->clear_pixels += from[color] != UINT8_MAX || from[pixel - 1] != UINT8_MAX;
+        memmove(data + x * color, from, color);
+    }
+}
+
+static void ask_for_rgb(png_structp png, struct job *job) {
     static const uint16_t one = 1;
     png_set_expand(png); // palettes, fewer than 8 bits, tRNS
     png_set_gray_to_rgb(png);
-    png_set_strip_alpha(png);
+    png_set_read_user_transform_fn(png, take_alpha);
+    png_set_user_transform_info(png, job, 0, COLORS);
     if (*(const uint8_t *)&one == 1)
         png_set_swap(png); // 16 bits are big-endian in the file
 }
 
 // Returns normally, or through libpng's jump to the caller's setjmp.
 static void read_rows(png_structp png, png_infop info, struct job *job) {
-    const struct picture_header *header = job->header;
+    struct picture_header *header = job->header;
+    header->clear_pixels = 0;
     set_up(png, job);
     job->fault = "its header or its palette is damaged";
     png_read_info(png, info);
-    ask_for_rgb(png);
+    ask_for_rgb(png, job);
     int passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
     if (png_get_image_width(png, info) != header->width ||
@@ -184,7 +201,7 @@ static void read_guarded(png_structp png, png_infop info, struct job *job) {
         read_rows(png, info, job);
 }
 
-const char *picture_png_rows(str bytes, const struct picture_header *header, struct picture_rows rows) {
+const char *picture_png_rows(str bytes, struct picture_header *header, struct picture_rows rows) {
     const char *fault = check_chunks(bytes, 2 * widest_row(header) * header->height + DATA_SLACK);
     if (fault)
         return fault;

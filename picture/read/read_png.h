@@ -9,8 +9,9 @@
 
 // Walks all chunks. Fills width, height, is_16_bit, decoder_bytes and ignored. NULL, or what is wrong.
 const char *picture_png_header(str bytes, struct picture_header *out);
-// RGB of 8 or 16 bits per channel, as the header says, for a file that picture_png_header found whole. NULL,
-// or what is wrong. Rows of an interlaced file come several times, each time with more of their pixels.
-const char *picture_png_rows(str bytes, const struct picture_header *header, struct picture_rows rows);
+// RGB of 8 or 16 bits per channel, as the header says, for a file that picture_png_header found whole. Fills
+// clear_pixels. NULL, or what is wrong. Rows of an interlaced file come several times, each time with more of
+// their pixels.
+const char *picture_png_rows(str bytes, struct picture_header *header, struct picture_rows rows);
 
 #endif

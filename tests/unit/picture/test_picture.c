@@ -113,7 +113,7 @@ static void what_is_ignored_is_one_note(void **state) {
         png_put_header(&file, 1, 1, 8, cases[i].color, 0);
         if (cases[i].chunk)
             png_put_chunk(&file, cases[i].chunk, "\0\0\0\0\0\0", 6);
-        png_put_rows(&file, "\0\1\2\3\4", cases[i].color == 6 ? 5 : 4);
+        png_put_rows(&file, "\0\1\2\3\xFF", cases[i].color == 6 ? 5 : 4);
         struct assets_scene *s = assets_scene_begin();
         assert_non_null(load(s, "sky.png", &file));
         if (cases[i].note) {

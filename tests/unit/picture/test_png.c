@@ -49,6 +49,18 @@ static void expected_pixel(const struct kind *kind, int x, int y, unsigned rgb[3
     }
 }
 
+// Alpha, the alpha of an entry of the palette, or the one colour that tRNS makes transparent (11.3.2.1).
+static bool is_clear(const struct kind *kind, int x, int y) {
+    if (kind->color == GRAY_ALPHA || kind->color == RGB_ALPHA)
+        return sample_of(kind, x, y, kind->channels - 1) != (1u << kind->depth) - 1;
+    if (kind->color == PALETTE)
+        return kind->transparent && palette_entry(sample_of(kind, x, y, 0), 3) != UINT8_MAX;
+    bool is_key = kind->transparent;
+    for (int c = 0; c < kind->channels; c++)
+        is_key &= sample_of(kind, x, y, c) == sample_of(kind, 0, 0, c);
+    return is_key;
+}
+
 // Every `step`th pixel of a row from `first`; returns the bytes.
 static size_t pack_row(const struct kind *kind, int y, int first, int step, uint8_t *out) {
     size_t bit = 0;
@@ -132,11 +144,17 @@ static void check_kind(const struct kind *kind) {
     struct strbuf file;
     struct picture_header header;
     struct picture picture = {0};
+    uint64_t clear = 0;
     strbuf_init(&file);
     put_file(kind, &file);
     assert_null(picture_read_header(strbuf_view(&file), &header));
     assert_null(picture_check(strbuf_view(&file), &header));
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++)
+            clear += is_clear(kind, x, y);
+    assert_int_equal(header.clear_pixels, clear);
     assert_null(picture_decode(strbuf_view(&file), &header, &picture));
+    assert_int_equal(picture.clear_pixels, clear);
     assert_int_equal(picture.depth, kind->depth == 16 ? PICTURE_16 : PICTURE_8);
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {

@@ -477,7 +477,7 @@ static void test_background(void **state) {
     uint8_t bytes[6] = {0, 51, 255, 1, 2, 128};
     uint16_t words[6] = {0, 13107, 65535, 1, 2, 32768};
     uint8_t shared[8] = {0, 64, 128, 129, 3, 4, 5, 138};
-    struct picture picture = {2, 1, PICTURE_8, bytes, sizeof bytes, NULL};
+    struct picture picture = {2, 1, PICTURE_8, bytes, sizeof bytes, NULL, 0};
     struct kit kit;
     struct flat_scene flat;
     uint8_t device[8];
@@ -501,13 +501,13 @@ static void test_background(void **state) {
     assert_true(texels[0] == 0 && texels[2] == 1 && fabsf(texels[1] - 0.0331048f) < 1e-6f);
     flat_finish(&flat);
     kit.scene.image.transfer = IR_TRANSFER_NONE;
-    picture = (struct picture){2, 1, PICTURE_16, words, sizeof words, NULL};
+    picture = (struct picture){2, 1, PICTURE_16, words, sizeof words, NULL, 0};
     flatten_ok(&kit, &flat);
     flat_background(&flat, 0, 2, texels);
     assert_true(texels[1] == 0.2f && texels[2] == 1 && texels[4] == (float)(1.0 / 65535));
     flat_finish(&flat);
     kit.scene.image.transfer = IR_TRANSFER_SRGB; // linear always
-    picture = (struct picture){2, 1, PICTURE_RGBE, shared, sizeof shared, NULL};
+    picture = (struct picture){2, 1, PICTURE_RGBE, shared, sizeof shared, NULL, 0};
     flatten_ok(&kit, &flat);
     flat_background(&flat, 0, 2, texels);
     assert_true(texels[1] == 0.5f && texels[2] == 1 && texels[6] == 20 && texels[7] == 1);
@@ -518,7 +518,7 @@ static void test_background(void **state) {
 // What only asks for sizes and features, as `inspect` does, needs no pixels.
 static void test_background_without_pixels(void **state) {
     (void)state;
-    struct picture picture = {2, 1, PICTURE_16, NULL, 12, NULL};
+    struct picture picture = {2, 1, PICTURE_16, NULL, 12, NULL, 0};
     struct kit kit;
     struct flat_scene flat;
     kit_init(&kit);
