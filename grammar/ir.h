@@ -322,6 +322,10 @@ struct ir_scene {
     struct ir_rectangles rectangles;
     struct ir_models models;
     struct ir_animation animation; // at its defaults once a frame was taken
+    struct {
+        int32_t frames; // 0: it has none that moves anything
+        double rate;
+    } motion; // what the animation said, also once a frame was taken
 };
 
 // Bodies are numbered spheres, rectangles, models, each in file order.

@@ -2,8 +2,10 @@
 # Releases.
 #     tools/release.sh bump major|minor|patch   the next version into VERSION, and the changelog's topmost section gets it and a date
 #     tools/release.sh notes [VERSION]          that version's section of the changelog
-#     tools/release.sh make FOLDER [--once]     all artefacts of HEAD and their SHA-256, into a new folder; each is built twice, in
-#                                               two folders, and the bytes are compared
+#     tools/release.sh make FOLDER [--once] [--native]
+#                                               all artefacts of HEAD and their SHA-256, into a new folder; each is built twice, in
+#                                               two folders, and the bytes are compared. --native: without those of WebAssembly,
+#                                               which need what tools/page.sh needs
 # A version is MAJOR.MINOR.PATCH: major where scenes or reports that were right stop to be so, minor where something is new,
 # patch where something is mended. Nothing is published and no tag is made: `git tag -s vVERSION` is the last step.
 set -eu
@@ -56,13 +58,44 @@ build() {
     rm -rf "$2/_CPack_Packages"
 }
 
+# build_web SOURCE OUT: likewise; the libraries of the module are the same for both folders.
+build_web() {
+    (
+        cd "$1"
+        GLINT_WEB="$work/web-root" GLINT_PAGE_MODULES="$work/page-root" tools/page.sh build/page >page.log
+        npm pack --silent --pack-destination "$2" ./build/web/glint-lint >pack.log
+        tar -C build/page --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$SOURCE_DATE_EPOCH" --format=gnu \
+            --transform="s|^\.|glint-page-$version|" -cf - . | xz -9 -T1 >"$2/glint-page-$version.tar.xz"
+    )
+}
+
 make_all() {
-    out=$1
+    out=${1:?a new folder for the artefacts}
+    shift
+    once=
+    native=
+    for word; do
+        case $word in
+        --once) once=1 ;;
+        --native) native=1 ;;
+        *) echo "release: there is no '$word'" >&2 && exit 2 ;;
+        esac
+    done
     version=$(cat VERSION)
+    for program in emcc npm; do
+        [ -n "$native" ] || command -v $program >/dev/null || {
+            echo "release: the npm package and the page need $program; --native makes the rest" >&2
+            exit 1
+        }
+    done
     [ -z "$(git status --porcelain)" ] || { echo "release: the working tree has changes" >&2; exit 1; }
     [ ! -e "$out" ] || { echo "release: $out exists" >&2; exit 1; }
     mkdir -p "$out"
-    out=$(cd "$out" && pwd)
+    whole=$(cd "$out" && pwd)
+    out=$whole.new
+    rm -rf "$out"
+    rmdir "$whole"
+    mkdir "$out"
     SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
     GLINT_COMMIT=$(git rev-parse --short=12 HEAD)
     export SOURCE_DATE_EPOCH GLINT_COMMIT
@@ -72,24 +105,30 @@ make_all() {
     mkdir -p "$work/one" "$work/another/folder" "$work/second"
     tar -C "$work/one" -xf "$out/glint-$version.tar.xz"
     build "$work/one/glint-$version" "$out"
-    if [ "${2:-}" != --once ]; then
+    [ -n "$native" ] || build_web "$work/one/glint-$version" "$out"
+    if [ -z "$once" ]; then
         tar -C "$work/another/folder" -xf "$out/glint-$version.tar.xz"
         build "$work/another/folder/glint-$version" "$work/second"
+        [ -n "$native" ] || build_web "$work/another/folder/glint-$version" "$work/second"
         for file in "$work/second"/*; do
             cmp "$file" "$out/${file##*/}" || { echo "release: ${file##*/} is not the same from another folder" >&2; exit 1; }
         done
     fi
     notes "$version" >"$out/notes.md"
-    (cd "$out" && sha256sum ./*.deb ./*.tar.xz ./*.json notes.md | sed 's|\./||' >SHA256SUMS)
-    cat "$out/SHA256SUMS"
+    (cd "$out" && sha256sum -- * >"$work/sums" && mv "$work/sums" SHA256SUMS)
+    mv "$out" "$whole"
+    cat "$whole/SHA256SUMS"
 }
 
 case "${1:-}" in
 bump) bump "${2:-}" ;;
 notes) notes "${2:-$(cat VERSION)}" ;;
-make) make_all "${2:?a new folder for the artefacts}" "${3:-}" ;;
+make)
+    shift
+    make_all "$@"
+    ;;
 *)
-    sed -n '2,6s/^# //p' "$0" >&2
+    sed -n '2,8s/^# //p' "$0" >&2
     exit 2
     ;;
 esac

@@ -12,10 +12,10 @@ struct batch_motion batch_motion_of(struct cli *cli, const char *scene, const st
     options.set_count = set_count;
     session_load(&session, &options, store);
     motion.is_good = session.sink.errors == 0 && session.scene;
-    if (motion.is_good && session.scene->animation.tracks.count) {
+    if (motion.is_good && session.scene->motion.frames) {
         motion.is_animated = true;
-        motion.frames = session.scene->animation.frames;
-        motion.rate = session.scene->animation.rate;
+        motion.frames = session.scene->motion.frames;
+        motion.rate = session.scene->motion.rate;
     }
     session_finish(&session);
     asset_store_destroy(store);

@@ -151,6 +151,12 @@ static void look_at_elements(const struct motion *motion) {
     diag_sink_finish(&found);
 }
 
+// Whether the file names the frame. Who asks for one frame, by an option, asks for nothing about the others.
+static bool is_frame_of_file(const struct loader *loader, const struct ir_animation *animation) {
+    const span at = ir_place_value(&loader->output->origin, &animation->head, &SCHEMA_ANIMATION, "frame");
+    return loader->input->sources->items[at.source].kind != SOURCE_KIND_OPTION;
+}
+
 void animate_scene(struct loader *loader, struct ir_scene *scene) {
     const struct ir_animation *animation = &scene->animation;
     const uint32_t row = (uint32_t)schema_find_row(&SCHEMA_SCENE, STR("animation"));
@@ -161,17 +167,22 @@ void animate_scene(struct loader *loader, struct ir_scene *scene) {
         return;
     const uint32_t errors = sink->errors;
     const bool is_good = !animation->head.poisoned;
+    const bool has_frame = animation->head.written & bind_bit(frame);
     if (is_good)
         motion_find(&motion);
-    if (is_good && (animation->head.written & bind_bit(frame))) {
-        take_frame(&motion);
-    } else if (is_good) {
+    if (is_good && animation->tracks.count) {
+        scene->motion.frames = animation->frames;
+        scene->motion.rate = animation->rate;
+    }
+    if (is_good && (!has_frame || is_frame_of_file(loader, animation))) {
         for (uint32_t i = 0; i < motion.count; i++)
             look_at_track(&motion, &motion.items[i]);
         if (sink->errors == errors && errors == 0)
             look_at_elements(&motion);
     }
-    if (animation->head.written & bind_bit(frame))
+    if (is_good && has_frame)
+        take_frame(&motion);
+    if (has_frame)
         forget_animation(loader, scene);
     arena_finish(&loader->scratch);
 }

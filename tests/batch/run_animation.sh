@@ -55,6 +55,17 @@ tells 'no number' 2 'takes a whole number' "$glint" check scene.yaml --frame x
 tells 'a farm' 0 - "$glint" farm slurm scene.yaml --frames all --chunk 5 -o 'f.%d.png' --folder farm -q
 matches 'first=0 last=19 ' farm/job.sh && pass 'its frames' || fail 'its frames'
 
+# A scene that names the frame that it shows by itself has the others too.
+sed 's/^  rate: 10/&\n  frame: 4/' scene.yaml >shown.yaml
+"$glint" inspect --ir shown.yaml | cmp -s - frame.ir && pass 'the frame of the file' || fail 'the frame of the file'
+"$glint" inspect --ir shown.yaml --frame 9 >9.ir
+"$glint" inspect --ir scene.yaml --frame 9 | cmp -s - 9.ir && pass 'another one' || fail 'another one'
+tells 'a farm for it' 0 - "$glint" farm slurm shown.yaml --frames all --chunk 5 -o 'f.%d.png' --folder shown -q
+matches 'first=0 last=19 ' shown/job.sh && pass 'all of its frames' || fail 'all of its frames'
+sed 's|radius: 0.9 + time/10|radius: 0.9 - time|' shown.yaml >small.yaml
+tells 'a frame that is not shown' 1 'E222|must be' "$glint" check small.yaml
+tells 'one frame is asked for' 0 - "$glint" check small.yaml --frame 3
+
 if ! "$glint" render still.yaml -o still.pfm -q 2>/dev/null; then
     [ $failed -eq 0 ] || exit 1
     echo "skip: no Vulkan device: of an animation only its values"
@@ -62,6 +73,10 @@ if ! "$glint" render still.yaml -o still.pfm -q 2>/dev/null; then
 fi
 "$glint" render scene.yaml -o plain.pfm -q && cmp -s still.pfm plain.pfm && pass 'no frame: as written' || fail 'no frame: as written'
 "$glint" render scene.yaml --frames all -o 'f.%02d.png' --stats 2>stats.txt
+"$glint" render shown.yaml --frames all -o 's.%02d.png' -q
+for f in f.*.png; do
+    "$glint" compare "$f" "s.${f#f.}" --max-largest 0 >compared.txt || fail "a scene that names a frame: $f"
+done
 [ "$(ls f.*.png | wc -l)" = 20 ] && pass 'all frames' || fail 'all frames'
 matches '1 mesh and 0 images read' stats.txt && pass 'nothing is read twice' || {
     fail 'nothing is read twice'
