@@ -143,8 +143,10 @@ static const char *const *coding_words(const char *path) {
 static const char *filter_of(const struct film *film) {
     if (str_ends_with_nocase(str_from(film->path), ".gif"))
         return "split[a][b];[a]palettegen[p];[b][p]paletteuse";
-    return film->width % 2 || film->height % 2 ? "scale=out_color_matrix=bt709:out_range=tv,format=yuv444p"
-                                               : "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
+    return film->width % 2 || film->height % 2
+               ? "scale=flags=accurate_rnd+full_chroma_int:out_color_matrix=bt709:out_range=tv,format=yuv444p"
+               : "scale=flags=accurate_rnd+full_chroma_int:out_color_matrix=bt709:out_range=tv,format="
+                 "yuv420p";
 }
 
 static int start_ffmpeg(struct film *film) {
