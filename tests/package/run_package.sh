@@ -67,7 +67,7 @@ fi
 # ---- a fresh root
 
 root=${GLINT_FRESH_ROOT:-$source/build/fresh-root}
-[ -x "$root/usr/bin/dpkg" ] || skip "there is no fresh root; packaging/fresh_root.sh makes one"
+[ -x "$root/usr/bin/dpkg" ] || skip "there is no fresh root; packaging/fresh_root.sh $work/one/$deb makes one"
 [ "$(id -u)" = 0 ] && unshare -m true 2>/dev/null || skip "only root can enter a fresh root"
 cp "$source/scenes/tutorial/step-7.glint.yaml" scene.glint.yaml
 sed 's/radius: [0-9.]*/radius: -1/' scene.glint.yaml >wrong.glint.yaml
