@@ -4,6 +4,7 @@ import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
 import path from 'node:path';
+import { licences } from '../licences.mjs';
 
 const [out, modules, lint, source, gpu] = process.argv.slice(2);
 const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
@@ -29,18 +30,7 @@ if (gpu) {
 }
 
 // The licences of what is in it.
-const packages = new Set();
-for (const input of Object.keys(built.metafile.inputs)) {
-  const found = /node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(input);
-  if (found) packages.add(found[1]);
-}
-const licences = [...packages].sort().map((name) => {
-  const folder = path.join(modules, 'node_modules', name);
-  const { version, license } = JSON.parse(fs.readFileSync(path.join(folder, 'package.json'), 'utf8'));
-  const file = fs.readdirSync(folder).find((one) => /^licen[cs]e/i.test(one));
-  return `${name} ${version}: ${license}\n\n${file ? fs.readFileSync(path.join(folder, file), 'utf8').trim() : ''}\n`;
-});
-fs.writeFileSync(path.join(out, 'licences.txt'), [`glint\n\n${fs.readFileSync(path.join(source, 'LICENSE'), 'utf8').trim()}\n`, ...licences].join('\n----\n\n'));
+fs.writeFileSync(path.join(out, 'licences.txt'), licences(Object.keys(built.metafile.inputs), modules, source));
 
 // ---- scenes
 

@@ -4,8 +4,10 @@ export class Cancelled extends Error {}
 
 export class Glint {
   // `module`: compiled, `gpu`: the one that draws by WebGPU; `files()`: all that the scene's folder holds, by path, for a worker that starts.
-  constructor(module, files, gpu = false) {
+  // `address`: of its program, as this page names it.
+  constructor(module, files, gpu = false, address = 'worker.js') {
     this.module = module;
+    this.address = address;
     this.gpu = gpu;
     this.files = files;
     this.listeners = new Set();
@@ -15,7 +17,7 @@ export class Glint {
   }
 
   fresh() {
-    const worker = new Worker('worker.js');
+    const worker = new Worker(this.address);
     worker.postMessage({ module: this.module, gpu: this.gpu });
     return worker;
   }
@@ -47,7 +49,7 @@ export class Glint {
     this.worker.terminate();
     this.start();
     for (const { reject } of waiting.values()) reject(new Error(why));
-    if (this.onRestart) this.onRestart();
+    if (this.onRestart) this.onRestart(why);
   }
 
   // Ends what is being done, at once. The next worker begins while this one still works, so that it is ready then.
