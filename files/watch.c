@@ -32,7 +32,8 @@ struct watch {
     uint32_t count, capacity;
     int *folders; // descriptors of what inotify watches
     uint32_t folder_count, folder_capacity;
-    int notify; // inotify; -1: none
+    int notify;    // inotify; -1: none
+    double looked; // clock: by watch_look; 0: not since watch_begin
 };
 
 // ---- inotify
@@ -142,6 +143,7 @@ void watch_begin(struct watch *watch) {
     for (uint32_t i = 0; i < watch->folder_count; i++)
         leave_folder(watch->notify, watch->folders[i]);
     watch->folder_count = 0;
+    watch->looked = 0;
 }
 
 static bool is_known(const struct watch *watch, str path) {
@@ -222,6 +224,18 @@ static bool wait_for_events(const struct watch *watch, double seconds) {
     if (count > 0)
         drain(watch);
     return true;
+}
+
+bool watch_look(struct watch *watch) {
+    const double now = clock_seconds();
+    struct pollfd told = {.fd = watch->notify, .events = POLLIN};
+    const bool is_told = watch_is_told(watch);
+    if (is_told && poll(&told, 1, 0) > 0)
+        drain(watch);
+    else if (now - watch->looked < (is_told ? WATCH_SLOW_SECONDS : WATCH_POLL_SECONDS))
+        return false;
+    watch->looked = now;
+    return watch_differs(watch);
 }
 
 static double least(double a, double b) {

@@ -32,6 +32,10 @@ bool watch_add_missing(struct watch *watch, str path);
 bool watch_add_now(struct watch *watch, str path);
 // Whether any of them is not as it was added, now.
 bool watch_differs(const struct watch *watch);
+// The same, for one who asks all the time: files are looked at only if something was told since the last
+// look, or that is WATCH_SLOW_SECONDS ago (without inotify WATCH_POLL_SECONDS). A change is not lost, but
+// found once.
+bool watch_look(struct watch *watch);
 // Waits until any is, or `seconds` are over, or a signal comes: watch_differs.
 bool watch_wait(struct watch *watch, double seconds);
 // After watch_wait: waits until nothing has changed for `seconds`, so that a file that is being written is

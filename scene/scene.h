@@ -29,7 +29,8 @@ enum scene_shape {
     SCENE_MESH,
 };
 
-// In IR order (ir.h). Models whose mesh could not be loaded are bodies without triangles.
+// In IR order (ir.h). Models whose mesh could not be loaded are bodies without triangles. What the tracer's
+// geometry depends on is compared by tracer/flatten/flatten_keep.c.
 struct scene_body {
     // Of the language: its name is what people call the body. NULL: the program made it, and it is in
     // no file.

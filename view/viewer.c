@@ -11,7 +11,7 @@
 
 #define QUIET_SECONDS 0.01 // a file that is being written is whole after so long
 #define STILL_SECONDS 0.06 // the eye rests after so long
-#define IDLE_SECONDS  0.1  // between two looks at the files when all is done
+#define IDLE_SECONDS  0.02 // between two looks at what the system tells of files, when all is done
 
 // ---- the scene
 
@@ -43,6 +43,7 @@ static void take_scene(struct viewer *v) {
 
 // false: the device failed.
 static bool reload(struct viewer *v) {
+    v->has_changed = false;
     const enum live_state state = live_load(v->live);
     if (state == LIVE_FAILED)
         return false;
@@ -101,7 +102,7 @@ static bool step(struct viewer *v) {
     const bool has_acted = viewer_act(v);
     if (!take_size(v))
         return false;
-    if (watch_differs(v->live->watch)) {
+    if (viewer_has_changed(v)) {
         watch_settle(v->live->watch, QUIET_SECONDS);
         if (!reload(v))
             return false;

@@ -1,8 +1,5 @@
 // What happened since the viewer looked last.
-#include "core/clock.h"
 #include "view/viewer_private.h"
-
-#define LOOK_SECONDS 0.05 // between two looks at the files, while a picture is made
 
 // Those that came since the last time, and what they ask for; more than there is room for at a time are left
 // for later.
@@ -15,16 +12,16 @@ void viewer_take_events(struct viewer *v) {
     }
 }
 
+bool viewer_has_changed(struct viewer *v) {
+    v->has_changed = v->has_changed || watch_look(v->live->watch);
+    return v->has_changed;
+}
+
 bool viewer_is_disturbed(struct viewer *v) {
     uint32_t width, height;
     window_wait(v->window, 0);
     viewer_take_events(v);
     window_size(v->window, &width, &height);
-    const double now = clock_seconds();
-    const bool looks = now - v->looked > LOOK_SECONDS;
-    if (looks)
-        v->looked = now;
     return v->action_count > 0 || v->steer.has_turned || steer_is_flying(&v->steer) || width != v->width ||
-           height != v->height || v->host->is_over(v->host->context) ||
-           (looks && watch_differs(v->live->watch));
+           height != v->height || v->host->is_over(v->host->context) || viewer_has_changed(v);
 }

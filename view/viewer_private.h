@@ -61,7 +61,7 @@ struct viewer {
     double pixel_seconds; // that a sample of a pixel takes
     double moved;         // clock: when the eye moved last
     double stepped;       // clock: when time went by last
-    double looked;        // clock: when the files were looked at, during a picture
+    bool has_changed;     // a file that the scene is made from
     double shown_speed;   // of flight, that the text in the window says
     char said[256];       // about what was clicked
 };
@@ -90,6 +90,8 @@ void viewer_write(struct viewer *v);
 void viewer_take_events(struct viewer *v);
 // Whether something happened that a picture under way must end for. What events do waits for viewer_act.
 bool viewer_is_disturbed(struct viewer *v);
+// Whether a file has changed since the scene was loaded.
+bool viewer_has_changed(struct viewer *v);
 // The eye goes where the camera is in the scene.
 void viewer_go_back(struct viewer *v);
 void viewer_aim(struct viewer *v);

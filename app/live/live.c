@@ -141,6 +141,7 @@ static bool flatten_again(struct live *live, struct session *session, const stru
     input.is_double = live->shot.flat.is_double;
     input.sharing = gpu_info(live->gpu)->has_double ? FLAT_CHEAPER : FLAT_COPIES;
     input.keep = live->keep;
+    input.before = &live->shot.flat;
     const double start = clock_seconds();
     const bool done = flatten(&input, flat);
     live->change.flatten_seconds = clock_seconds() - start;
@@ -169,6 +170,7 @@ static enum live_state renew(struct live *live, struct session *session, uint32_
     const bool done =
         renderer_update(shot->renderer, &old, &shot->flat, &shot->settings, &live->change.written);
     live->change.upload_seconds = clock_seconds() - start;
+    flat_take(&shot->flat, &old);
     flat_finish(&old);
     return done ? LIVE_SHOWN : LIVE_FAILED;
 }

@@ -5,7 +5,7 @@
 enum {
     SHRINK_MOST = 8,
 };
-#define WHOLE_SECONDS  0.12 // that a frame may take without a coarse one before it
+#define WHOLE_SECONDS  0.2  // that a frame may take without a coarse one before it
 #define COARSE_SECONDS 0.03 // that a coarse one should take
 
 uint32_t coarse_shrink(const struct render_settings *settings, double pixel_seconds) {

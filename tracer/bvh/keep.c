@@ -100,6 +100,13 @@ bool bvh_build_kept(struct bvh_keep *keep, struct bvh_item *items, uint32_t coun
     return true;
 }
 
+void bvh_keep_all(struct bvh_keep *keep) {
+    for (struct kept_tree *tree = keep ? keep->trees : NULL; tree; tree = tree->next) {
+        tree->is_used = true;
+        keep->found++;
+    }
+}
+
 void bvh_keep_sweep(struct bvh_keep *keep) {
     struct kept_tree **at = &keep->trees;
     while (*at) {

@@ -16,6 +16,8 @@ void bvh_keep_destroy(struct bvh_keep *keep);
 // time.
 bool bvh_build_kept(struct bvh_keep *keep, struct bvh_item *items, uint32_t count, enum bvh_method method,
                     struct bvh *out);
+// As if all trees that are kept had been asked for, and found. NULL does nothing.
+void bvh_keep_all(struct bvh_keep *keep);
 // Forgets the trees that were not asked for since the last call.
 void bvh_keep_sweep(struct bvh_keep *keep);
 // How many trees with items were built, and how many found, since the keep was made.

@@ -143,27 +143,44 @@ static enum flatten_fault choose_scale(struct flattening *f) {
     return fault;
 }
 
-static enum flatten_fault run(struct flattening *f) {
-    typedef enum flatten_fault step(struct flattening *);
-    static step *const steps[] = {
-        flatten_count,     choose_scale,    flatten_share,      make_triangles,  flatten_instances,
-        make_spheres,      flatten_normals, flatten_paints,     flatten_media,   flatten_body_records,
-        flatten_materials, flatten_lights,  flatten_background, flatten_bounces,
-    };
-    size_t bodies = f->scene->body_count;
-    f->out->body_count = (uint32_t)bodies;
-    f->out->first_triangle = heap_zeroed(bodies + 1, sizeof *f->out->first_triangle);
-    f->normal_base = heap_zeroed(bodies + 1, sizeof *f->normal_base);
-    f->material_used = heap_zeroed((size_t)f->scene->material_count + 1, sizeof *f->material_used);
-    if (!f->out->first_triangle || !f->normal_base || !f->material_used)
+typedef enum flatten_fault step(struct flattening *);
+
+static enum flatten_fault take_steps(struct flattening *f, step *const *steps, size_t count) {
+    enum flatten_fault fault = FLATTEN_DONE;
+    for (size_t i = 0; i < count && fault == FLATTEN_DONE; i++)
+        fault = steps[i](f);
+    return fault;
+}
+
+static enum flatten_fault make_geometry(struct flattening *f) {
+    static step *const steps[] = {flatten_count,     choose_scale, flatten_share,  make_triangles,
+                                  flatten_instances, make_spheres, flatten_normals};
+    struct flat_scene *out = f->out;
+    const size_t bodies = f->scene->body_count;
+    out->first_triangle = heap_zeroed(bodies + 1, sizeof *out->first_triangle);
+    out->normal_base = heap_zeroed(bodies + 1, sizeof *out->normal_base);
+    if (!out->first_triangle || !out->normal_base)
         return FLATTEN_NO_MEMORY;
-    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
-        enum flatten_fault fault = steps[i](f);
-        if (fault != FLATTEN_DONE)
-            return fault;
-    }
-    flatten_features(f);
-    return FLATTEN_DONE;
+    return take_steps(f, steps, sizeof steps / sizeof *steps);
+}
+
+static enum flatten_fault run(struct flattening *f) {
+    static step *const steps[] = {flatten_paints, flatten_media,      flatten_body_records, flatten_materials,
+                                  flatten_lights, flatten_background, flatten_bounces};
+    f->out->body_count = f->scene->body_count;
+    f->material_used = heap_zeroed((size_t)f->scene->material_count + 1, sizeof *f->material_used);
+    if (!f->material_used)
+        return FLATTEN_NO_MEMORY;
+    enum flatten_fault fault = FLATTEN_DONE;
+    if (flatten_is_kept(f))
+        flatten_keep(f);
+    else
+        fault = make_geometry(f);
+    if (fault == FLATTEN_DONE)
+        fault = take_steps(f, steps, sizeof steps / sizeof *steps);
+    if (fault == FLATTEN_DONE)
+        flatten_features(f);
+    return fault;
 }
 
 // In double precision the camera may be so far from all bodies that the float boxes of the trees, as
@@ -183,6 +200,9 @@ bool flatten(const struct flat_input *input, struct flat_scene *out) {
     *out = (struct flat_scene){.is_double = input->is_double,
                                .strides = strides[input->is_double],
                                .origin = origin_of(input),
+                               .sharing = input->sharing,
+                               .method = input->method,
+                               .most_triangles = input->limits->value[LIMIT_SCENE_TRIANGLES],
                                .scene = input->scene,
                                .background = input->scene->background.picture};
     struct flattening f = {.input = input, .scene = input->scene, .out = out};
@@ -191,7 +211,6 @@ bool flatten(const struct flat_input *input, struct flat_scene *out) {
     timeline_add(input->timeline, "flatten", STR(""), start);
     flatten_share_finish(&f.sharing);
     free(f.material_used);
-    free(f.normal_base);
     free(f.coordinates);
     free(f.items);
     free(f.leaf_of);
@@ -204,16 +223,25 @@ bool flatten(const struct flat_input *input, struct flat_scene *out) {
     return fault == FLATTEN_DONE;
 }
 
-void flat_finish(struct flat_scene *flat) {
-    if (!flat)
-        return;
-    const struct flat_array arrays[] = {
-        flat->triangle_nodes, flat->triangles, flat->normals, flat->sphere_nodes, flat->spheres,
-        flat->bodies,         flat->materials, flat->lights,  flat->instances,    flat->paints};
+static void free_geometry(const struct flat_scene *flat) {
+    const struct flat_array arrays[] = {flat->triangle_nodes, flat->triangles, flat->normals,
+                                        flat->sphere_nodes,   flat->spheres,   flat->instances};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         free(arrays[i].words);
     free(flat->first_triangle);
+    free(flat->normal_base);
+    free(flat->instance_of);
     free(flat->uses);
+}
+
+void flat_finish(struct flat_scene *flat) {
+    if (!flat)
+        return;
+    const struct flat_array arrays[] = {flat->bodies, flat->materials, flat->lights, flat->paints};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        free(arrays[i].words);
+    if (!flat->shares)
+        free_geometry(flat);
     free(flat->bounces);
     free(flat->background_texels.decoded);
     *flat = (struct flat_scene){0};

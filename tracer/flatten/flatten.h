@@ -98,6 +98,12 @@ struct flat_scene {
     uint64_t features;                     // FEATURE_ bits that the scene needs
     uint32_t triangle_depth, sphere_depth; // levels of the trees: traversal stack size
     double build_seconds;                  // tree building
+    uint32_t *normal_base, *instance_of;   // by body, as in its record
+    // What decided how the geometry was made, beside the scene.
+    enum flat_sharing sharing;
+    enum bvh_method method;
+    uint64_t most_triangles; // that it may have: a limit
+    bool shares;             // its geometry is another's: flat_take
 };
 
 struct timeline;
@@ -110,6 +116,9 @@ struct flat_input {
     enum flat_sharing sharing;
     enum bvh_method method; // of the trees; none shows in a picture
     struct bvh_keep *keep;  // of trees; NULL: all are built
+    // A flat scene of before, with its scene, whose meshes are still there: where nothing has changed that
+    // geometry depends on, its geometry is shared, whatever became of materials and lights. NULL: none.
+    const struct flat_scene *before;
     const struct limits *limits;
     struct diag_sink *sink;
     struct timeline *timeline; // may be NULL
@@ -120,5 +129,7 @@ bool flatten(const struct flat_input *input, struct flat_scene *out);
 // Makes texels [begin, end) of the background, whose picture must have its pixels, from `to` on.
 void flat_background(const struct flat_scene *flat, size_t begin, size_t end, void *to);
 void flat_finish(struct flat_scene *flat);
+// What a flat scene shares with the one of before is its own from now on; else nothing happens.
+void flat_take(struct flat_scene *flat, struct flat_scene *before);
 
 #endif

@@ -137,6 +137,13 @@ static uint32_t material_flags(struct flattening *f, uint32_t material) {
     return material | (f->scene->materials[material].checker ? TRIANGLE_CHECKER : 0);
 }
 
+void flatten_use_materials(struct flattening *f, const struct scene_body *body) {
+    if (body->triangle_count == 0 && body->shape != SCENE_SPHERE)
+        return;
+    for (uint32_t i = 0; i < body->group_count; i++)
+        material_flags(f, body->materials[i]);
+}
+
 // A number as kernels will have it.
 static double rounded(const struct flattening *f, double value) {
     return f->out->is_double ? value : (double)(float)value;

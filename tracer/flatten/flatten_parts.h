@@ -37,7 +37,7 @@ struct shared_mesh {
 };
 
 struct sharing {
-    uint32_t *instance;      // by body: 0 if it is copied; NULL: no body is an instance
+    uint32_t *instance;      // by body: 0 if it is copied; out->instance_of
     uint32_t instance_count; // with instance 0; 0: none
     uint32_t *mesh_of;       // by body that is an instance: its mesh
     uint32_t *uses;          // bodies, those of one mesh together, in IR order
@@ -59,7 +59,6 @@ struct flattening {
     uint32_t item_count;
     uint32_t *leaf_of;       // by copied triangle: where its record goes; FLATTEN_NO_LEAF: it has no area
     bool *material_used;     // by index in scene->materials
-    uint32_t *normal_base;   // by body: its first record of out->normals
     uint32_t *coordinates;   // by body: its word of out->paints; 0: it has none
     uint64_t light_features; // FEATURE_ bits that the lights ask for
     uint64_t media_features; // and the media
@@ -82,6 +81,9 @@ enum flatten_fault flatten_triangles(struct flattening *f);
 // Fills out->triangles, which is there, as leaf_of says.
 enum flatten_fault flatten_records(struct flattening *f);
 
+// Marks the materials that the body's triangles, or its sphere, show.
+void flatten_use_materials(struct flattening *f, const struct scene_body *body);
+
 // ---- flatten_bounces.c
 
 // Fills out->bounces.
@@ -103,6 +105,13 @@ uint64_t flatten_copied(const struct flattening *f);
 // over all instances, and fills out->instances.
 enum flatten_fault flatten_instances(struct flattening *f);
 
+// ---- flatten_keep.c
+
+// Whether the geometry of input->before is that of this scene.
+bool flatten_is_kept(const struct flattening *f);
+// Then: shares it.
+void flatten_keep(struct flattening *f);
+
 // ---- flatten_media.c
 
 // Which media the scene has, if rays must know them.
@@ -112,7 +121,7 @@ vec3 flatten_absorption(const struct flattening *f, const struct scene_material 
 
 // ---- flatten_shade.c
 
-// Fills out->normals and normal_base.
+// Fills out->normals and out->normal_base.
 enum flatten_fault flatten_normals(struct flattening *f);
 // Fills out->bodies.
 enum flatten_fault flatten_body_records(struct flattening *f);

@@ -49,8 +49,8 @@ enum flatten_fault flatten_body_records(struct flattening *f) {
     for (uint32_t i = 0; i < f->out->body_count; i++) {
         const struct scene_body *body = &f->scene->bodies[i];
         struct gpu_body record = {.first_triangle = f->out->first_triangle[i],
-                                  .normal_base = f->normal_base[i],
-                                  .instance = f->sharing.instance[i]};
+                                  .normal_base = f->out->normal_base[i],
+                                  .instance = f->out->instance_of[i]};
         if (f->medium)
             record.medium = f->medium[i];
         if (has_checker(f->scene, body)) {
@@ -92,7 +92,7 @@ static enum flatten_fault list_uses(struct flattening *f, struct smooth_use **us
             continue;
         // Instances have those of the first one, as the mesh has them.
         struct shared_mesh *shared = flatten_shared(f, i);
-        f->normal_base[i] = shared && shared->has_normals ? shared->normal_base : (uint32_t)normals;
+        f->out->normal_base[i] = shared && shared->has_normals ? shared->normal_base : (uint32_t)normals;
         if (shared && shared->has_normals)
             continue;
         if (shared) {
@@ -148,7 +148,7 @@ static void turn_mesh(void *context) {
                                   .body = body,
                                   .normals = normals,
                                   .turn = transform_for_normals(body->object_to_world.linear),
-                                  .base = m->f->normal_base[number],
+                                  .base = m->f->out->normal_base[number],
                                   .is_shared = flatten_shared(m->f, number) != NULL};
         parallel_for(mesh->triangle_count, PIECE, turn_normals, &turning);
     }

@@ -274,6 +274,7 @@ static bool list_meshes(struct flattening *f, const struct mesh_use *uses, uint3
     sharing->meshes = heap_zeroed((size_t)count / 2 + 1, sizeof *sharing->meshes);
     sharing->uses = heap_array((size_t)count + 1, sizeof *sharing->uses);
     sharing->instance = heap_zeroed((size_t)f->scene->body_count + 1, sizeof *sharing->instance);
+    f->out->instance_of = sharing->instance;
     if (!sharing->meshes || !sharing->uses || !sharing->instance)
         return false;
     for (uint32_t begin = 0, end; begin < count; begin = end) {
@@ -401,5 +402,4 @@ void flatten_share_finish(struct sharing *sharing) {
     free(sharing->meshes);
     free(sharing->uses);
     free(sharing->mesh_of);
-    free(sharing->instance);
 }

@@ -99,6 +99,28 @@ static void test_nothing(void **state) {
     end(&f);
 }
 
+// One who looks all the time finds a change once, and what inotify has told at the next look.
+static void test_looks(void **state) {
+    const bool polls = *(const bool *)*state;
+    struct fixture f;
+    begin(&f, polls);
+    assert_true(scratch_write(&f.scratch, "a", "one"));
+    watch_only(&f, "a");
+    assert_false(watch_look(f.watch));
+    assert_true(scratch_write(&f.scratch, "a", "another"));
+    const double begun = clock_seconds();
+    bool seen = watch_look(f.watch);
+    assert_true(seen || polls);
+    while (!seen && clock_seconds() - begun < LONG_SECONDS)
+        seen = watch_look(f.watch);
+    assert_true(seen);
+    // It goes on to differ, until it is added as it is now.
+    assert_true(watch_differs(f.watch));
+    watch_only(&f, "a");
+    assert_false(watch_look(f.watch));
+    end(&f);
+}
+
 int main(void) {
     static bool ways[] = {false, true};
     const struct CMUnitTest tests[] = {
@@ -110,6 +132,8 @@ int main(void) {
         {"before, looked for", test_before, NULL, NULL, &ways[1]},
         {"nothing, told", test_nothing, NULL, NULL, &ways[0]},
         {"nothing, looked for", test_nothing, NULL, NULL, &ways[1]},
+        {"looks, told", test_looks, NULL, NULL, &ways[0]},
+        {"looks, looked for", test_looks, NULL, NULL, &ways[1]},
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
