@@ -5,7 +5,7 @@
 #     tools/release.sh make FOLDER [--once] [--native]
 #                                               all artefacts of HEAD and their SHA-256, into a new folder; each is built twice, in
 #                                               two folders, and the bytes are compared. --native: without those of WebAssembly,
-#                                               which need what tools/page.sh needs
+#                                               which need what tools/page.sh and tools/vscode.sh need
 # A version is MAJOR.MINOR.PATCH: major where scenes or reports that were right stop to be so, minor where something is new,
 # patch where something is mended. Nothing is published and no tag is made: `git tag -s vVERSION` is the last step.
 set -eu
@@ -63,6 +63,8 @@ build_web() {
     (
         cd "$1"
         GLINT_WEB="$work/web-root" GLINT_PAGE_MODULES="$work/page-root" tools/page.sh build/page >page.log
+        GLINT_WEB="$work/web-root" GLINT_VSCODE_MODULES="$work/vscode-root" tools/vscode.sh build/vscode >vscode.log
+        cp "build/vscode/glint-$version.vsix" "$2"
         npm pack --silent --pack-destination "$2" ./build/web/glint-lint >pack.log
         tar -C build/page --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$SOURCE_DATE_EPOCH" --format=gnu \
             --transform="s|^\.|glint-page-$version|" -cf - . | xz -9 -T1 >"$2/glint-page-$version.tar.xz"
@@ -84,7 +86,7 @@ make_all() {
     version=$(cat VERSION)
     for program in emcc npm; do
         [ -n "$native" ] || command -v $program >/dev/null || {
-            echo "release: the npm package and the page need $program; --native makes the rest" >&2
+            echo "release: the npm package, the page and the extension need $program; --native makes the rest" >&2
             exit 1
         }
     done

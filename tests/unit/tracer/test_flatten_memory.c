@@ -73,7 +73,7 @@ static void test_each_fails(void **state) {
     (void)state;
     struct kit kit;
     uint16_t pixels[3] = {1, 2, 3};
-    struct picture picture = {1, 1, PICTURE_16, pixels, sizeof pixels, NULL};
+    struct picture picture = {1, 1, PICTURE_16, pixels, sizeof pixels, NULL, 0};
     build(&kit, &picture);
     kit_resolve(&kit);
     int failed = 0;
