@@ -28,3 +28,18 @@ xml_cases() {
     done
 }
 xml_scenes() { find "$source/scenes" "$source/tests/scenes" -name '*.xml' | sort; }
+# editor PROGRAM [fetched]: the program that is installed, or that of build/editors-root, where tools/editors.sh has put it. glint is found too.
+editor() {
+    if [ "${2:-}" = fetched ]; then
+        root=${GLINT_EDITORS:-$source/build/editors-root}
+        [ -x "$root/bin/$1" ] || skip "no $1 of Debian 13; tools/editors.sh fetches it"
+        PATH=$root/bin:$PATH
+    fi
+    needs "$1"
+    PATH=$(dirname "$glint"):$PATH
+}
+# recipe NAME: the lines of docs/editors.md for an editor, as a user copies them.
+recipe() {
+    sed -n "/^$1 (/,/^[A-Z]/{/^$1 (/b;/^[A-Z]/q;s/^    //p}" "$source/docs/editors.md" >recipe
+    [ -s recipe ] || fail "docs/editors.md has no recipe for $1"
+}

@@ -1,8 +1,8 @@
 #!/bin/sh
 # Neovim without a screen, with glint lsp started as docs/editors.md says: diagnostics, definition, fix, completion,
-# formatting.
+# formatting. The one that is installed; with a last word `fetched`, that of tools/editors.sh.
 . "$(dirname -- "$0")/lib.sh"
-needs nvim
+editor nvim "${5:-}"
 nvim --headless -u NONE -c 'lua if not vim.lsp then vim.cmd("cquit") end' -c 'quit' 2>/dev/null ||
     skip "this nvim has no language client"
 printf 'glint: 1\nmaterials:\n  glass: {refractive_index: 1.5}\n' >materials.yaml
@@ -15,7 +15,7 @@ S
 cat >drive.lua <<'L'
 local function fail(text) io.stderr:write(text .. "\n"); vim.cmd("cquit 1") end
 local function wait(what, test) if not vim.wait(20000, test, 20) then fail("no " .. what) end end
-vim.cmd("luafile recipe.lua")
+vim.cmd("luafile recipe")
 vim.cmd("edit scene.glint.yaml")
 wait("diagnostics", function() return #vim.diagnostic.get(0, { severity = vim.diagnostic.severity.ERROR }) > 0 end)
 local function errors() return vim.diagnostic.get(0, { severity = vim.diagnostic.severity.ERROR }) end
@@ -51,10 +51,8 @@ vim.lsp.util.apply_text_edits(answer.result, vim.api.nvim_get_current_buf(), cli
 if vim.fn.getline(4) ~= "  - {center: [0, 0, 0], radius: 1, material: glass}" then fail("formatted: " .. vim.fn.getline(4)) end
 vim.cmd("qall!")
 L
-# The lines of the page, as a user copies them.
-sed -n '/^Neovim (/,/^Emacs (/s/^    //p' "$source/docs/editors.md" >recipe.lua
-[ -s recipe.lua ] || fail "docs/editors.md has no recipe"
-PATH=$(dirname "$glint"):$PATH nvim --headless -u NONE -i NONE -n -c 'luafile drive.lua' 2>log || {
+recipe Neovim
+nvim --headless -u NONE -i NONE -n -c 'luafile drive.lua' 2>log || {
     cat log
     fail "neovim"
 }
