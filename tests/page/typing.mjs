@@ -399,6 +399,27 @@ const tests = {
     return page;
   },
 
+  async 'text, picture and findings are seen at once, on a phone too, and nothing moves with the first key'() {
+    for (const [width, height] of [[1280, 800], [390, 844]]) {
+      const page = await browser.page(null);
+      await page.send('Emulation.setDeviceMetricsOverride', { width, height, deviceScaleFactor: 1, mobile: width < 500 });
+      await page.go(address);
+      await page.until(`window.page && page.editor && ${text} && ${state}`);
+      await page.until(idle);
+      const boxes = () => page.value("Object.fromEntries(['editor', 'picture', 'progress', 'state'].map((id) => { const { left, top, right, bottom } = document.getElementById(id).getBoundingClientRect(); return [id, [left, top, right, bottom]] }))");
+      const before = await boxes();
+      for (const [id, [left, top, right, bottom]] of Object.entries(before))
+        assert.ok(left >= 0 && top >= 0 && right <= width && bottom <= height && right - left > 50 && bottom - top > 10, `${width}x${height}: ${id} at ${left} ${top} ${right} ${bottom}`);
+      assert.ok(await page.value(`document.documentElement.scrollWidth <= ${width}`), 'the page is not wider than the screen');
+      await cursor(page, 'fov', true);
+      await page.type('x');
+      await contains(page, state, '1 error');
+      assert.deepStrictEqual((await boxes()).editor, before.editor);
+      await page.value('localStorage.clear()');
+      await page.close();
+    }
+  },
+
   async 'by keys alone, and what axe-core finds'() {
     const axe = fs.readFileSync(path.join(modules, 'node_modules/axe-core/axe.min.js'), 'utf8');
     for (const scheme of ['light', 'dark']) {
