@@ -62,7 +62,7 @@ zlib() {
     echo "tools/web.sh: zlib and minizip"
     (
         cd sources/zlib-*
-        CFLAGS="-Oz $lto" emconfigure ./configure --static --prefix="$folder/root"
+        CFLAGS="-Oz $lto -DDYNAMIC_CRC_TABLE" emconfigure ./configure --static --prefix="$folder/root"
         emmake make -j2 libz.a
         emmake make install
         cd contrib/minizip
@@ -87,10 +87,20 @@ library "$(ls -d sources/expat-*/expat)" -DEXPAT_BUILD_TOOLS=OFF -DEXPAT_BUILD_E
     -DEXPAT_SHARED_LIBS=OFF -DEXPAT_BUILD_DOCS=OFF -DEXPAT_DTD=OFF -DEXPAT_NS=OFF -DEXPAT_CONTEXT_BYTES=0 -DEXPAT_MIN_SIZE=ON -DCMAKE_C_FLAGS="-ffp-contract=off $lto -DXML_DTD=1" # patched: == 1
 library sources/jansson-* -DJANSSON_BUILD_DOCS=OFF -DJANSSON_WITHOUT_TESTS=ON -DJANSSON_EXAMPLES=OFF
 zlib
-library sources/libpng1.6-* -DPNG_SHARED=OFF -DPNG_TESTS=OFF -DPNG_EXECUTABLES=OFF -DPNG_HARDWARE_OPTIMIZATIONS=OFF
+# libpng with what glint asks it for, and no more: pixels and text. Its own messages are shown to nobody.
+{
+    echo 'everything = off'
+    for option in SETJMP USER_MEM USER_LIMITS SET_USER_LIMITS SET_UNKNOWN_CHUNKS HANDLE_AS_UNKNOWN EASY_ACCESS POINTER_INDEXING \
+        BENIGN_ERRORS BENIGN_READ_ERRORS CHECK_FOR_INVALID_INDEX FIXED_POINT READ SEQUENTIAL_READ READ_16BIT READ_TRANSFORMS \
+        READ_EXPAND READ_GRAY_TO_RGB READ_STRIP_ALPHA READ_SWAP READ_ANCILLARY_CHUNKS READ_OPT_PLTE READ_tRNS WRITE WRITE_16BIT \
+        WRITE_CUSTOMIZE_COMPRESSION WRITE_CUSTOMIZE_ZTXT_COMPRESSION WRITE_ANCILLARY_CHUNKS WRITE_TEXT WRITE_tEXt WRITE_iTXt; do
+        echo "option $option on"
+    done
+} >libpng.dfa
+library sources/libpng1.6-* -DPNG_SHARED=OFF -DPNG_TESTS=OFF -DPNG_EXECUTABLES=OFF -DPNG_HARDWARE_OPTIMIZATIONS=OFF -DDFA_XTRA="$folder/libpng.dfa"
 # What glint never asks libjpeg for: its header of capabilities is meant to be edited.
 sed -i -E 's/^#define +((UPSAMPLE_MERGING|QUANT_1PASS|QUANT_2PASS|IDCT_SCALING|DCT_IFAST|DCT_FLOAT)_SUPPORTED)/#undef \1/' \
     sources/libjpeg-turbo-*/jmorecfg.h
 library sources/libjpeg-turbo-* -DWITH_SIMD=OFF -DWITH_TURBOJPEG=OFF -DWITH_ARITH_ENC=OFF -DWITH_ARITH_DEC=OFF -DENABLE_SHARED=OFF \
     -DCMAKE_INSTALL_LIBDIR="$folder/root/lib" -DHAVE_SIZE_T=TRUE -DSIZE_T=4 -DHAVE_UNSIGNED_LONG=TRUE -DUNSIGNED_LONG=4 # its own look at a program finds none
-rm -rf apt build sources sources.log build-*.log
+rm -rf apt build sources sources.log build-*.log libpng.dfa

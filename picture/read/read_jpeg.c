@@ -226,8 +226,9 @@ static void on_message(j_common_ptr decoder, int level) {
         on_error(decoder);
 }
 
-static void on_output(j_common_ptr decoder) {
-    (void)decoder;
+// Nothing is counted.
+static void on_reset(j_common_ptr decoder) {
+    decoder->err->msg_code = 0;
 }
 
 // Four channels come out as C, M, Y, K, which Adobe's programs store inverted; a file without their mark has
@@ -308,11 +309,12 @@ const char *picture_jpeg_rows(str bytes, const struct picture_header *header, st
     struct job job = {.header = header, .rows = rows, .inks = heap_array(4, header->width)};
     if (!job.inks)
         return picture_no_memory;
-    job.decoder.err = jpeg_std_error(&job.errors);
+    job.decoder.err = &job.errors;
     job.decoder.client_data = &job;
+    // What the decoder calls; the library's own would bring the text of its messages with them.
     job.errors.error_exit = on_error;
     job.errors.emit_message = on_message;
-    job.errors.output_message = on_output;
+    job.errors.reset_error_mgr = on_reset;
     errno = 0;
     read_guarded(bytes, &job);
     jpeg_destroy_decompress(&job.decoder);

@@ -58,6 +58,12 @@ if [ "$kind" = web ]; then
 fi
 [ "$kind" != i386 ] || file -L "$other" | grep -q 32-bit || fail "it is no program of 32 bits"
 
+if [ "$kind" = web ]; then
+    size=$(gzip -9 -c "$built/glint-lint/glint.wasm" | wc -c)
+    [ "$size" -le 600000 ] && pass "$size bytes, compressed" ||
+        fail "glint.wasm takes $size bytes, compressed, and 600000 are the most; libraries made anew by tools/web.sh may be smaller"
+fi
+
 # ---- what is wrong with scenes
 
 # same NAME ARGUMENT...: both programs answer with the same status and the same bytes.

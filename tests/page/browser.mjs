@@ -6,7 +6,7 @@ import os from 'node:os';
 import path from 'node:path';
 
 export const PROGRAM = ['/usr/bin/chromium', '/usr/bin/chromium-browser'].find((file) => fs.existsSync(file));
-const WAIT_MS = +process.env.PAGE_WAIT || 60000; // for what should come at once
+export const WAIT_MS = +process.env.PAGE_WAIT || 600000; // for what should come at once: a hang ends there, and a busy machine does not
 
 export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 

@@ -80,7 +80,7 @@ export class Picture {
       if (/\[(E707|W701)\]/.test(err)) return 'this scene needs double precision, which WebGPU has not';
       if (status !== 0 || this.wanted) return err.split('\n')[0] || 'the text has changed';
       await this.show(files['/picture.png'], scene);
-      this.whole = files['/picture.png'];
+      if (!this.wanted) this.whole = files['/picture.png'];
       this.told({ part: 1, ms: performance.now() - began, whole: true, by: 'WebGPU', samples: scene.samples, width: scene.width, height: scene.height });
       return '';
     } catch (error) {
@@ -127,7 +127,7 @@ export class Picture {
       }
       if (this.wanted && !whole) return;
       await this.show(files['/picture.png'], scene);
-      if (whole) this.whole = files['/picture.png'];
+      if (whole && !this.wanted) this.whole = files['/picture.png'];
       this.told({ part, ms, whole: !!whole, by: why ? `the reference: ${why}` : 'the reference', samples: whole ? scene.samples : 1, width: scene.width, height: scene.height });
     }
   }
