@@ -14,8 +14,9 @@ struct allow {
 // A part of a text that only has spaces and comments, and what follows it.
 struct gap {
     uint32_t source;
-    size_t begin, end; // where content begins
-    size_t tag_end;    // of the XML tag there
+    size_t begin, end;  // where content begins
+    size_t content_end; // of the entry that it begins; of the root, of its tag
+    size_t root;        // where that of an XML text begins
 };
 
 struct allows {
@@ -76,6 +77,79 @@ static size_t tag_end(str text, size_t at) {
     return at;
 }
 
+static size_t skip_past(str text, size_t at, const char *mark) {
+    const str end = str_from(mark);
+    while (at < text.len && !str_starts_with(str_slice(text, at, at + end.len), end))
+        at++;
+    return at;
+}
+
+// Where the root of an XML text begins.
+static size_t root_of(str text) {
+    size_t at = 0;
+    for (; at < text.len; at++) {
+        if (at_comment(text, at, true))
+            at = skip_past(text, at, "-->");
+        else if (text.ptr[at] == '<' && at + 1 < text.len && text.ptr[at + 1] != '?' &&
+                 text.ptr[at + 1] != '!')
+            break;
+    }
+    return at;
+}
+
+// Where the XML element that begins at `at` ends.
+static size_t element_end(str text, size_t at) {
+    size_t depth = 0;
+    while (at < text.len) {
+        const str here = str_slice(text, at, text.len);
+        const bool closes = str_starts_with(here, STR("</"));
+        if (text.ptr[at] != '<') {
+            at++;
+        } else if (at_comment(text, at, true)) {
+            at = skip_past(text, at, "-->");
+        } else if (str_starts_with(here, STR("<![CDATA["))) {
+            at = skip_past(text, at, "]]>");
+        } else {
+            at = tag_end(text, at);
+            depth += !closes && at < text.len && text.ptr[at - 1] != '/';
+            depth -= closes && depth > 0;
+            if (depth == 0)
+                break;
+        }
+    }
+    return at < text.len ? at : text.len;
+}
+
+static bool begins_item(str text, size_t at) {
+    return at < text.len && text.ptr[at] == '-' && (at + 1 == text.len || char_is_space(text.ptr[at + 1]));
+}
+
+static size_t line_end(str text, size_t at) {
+    while (at < text.len && !char_is_break(text.ptr[at]))
+        at++;
+    return at;
+}
+
+// Where the last line of the YAML entry ends that begins at `at`: an item of a list or a key, with what is
+// indented below it. Of a list of the root, where its key does.
+static size_t entry_end(str text, size_t at) {
+    size_t column = 0, end = at;
+    while (column < at && !char_is_break(text.ptr[at - column - 1]))
+        column++;
+    for (size_t next = line_end(text, at); next < text.len; next = line_end(text, next)) {
+        const size_t content = skip_to_content(text, next, false);
+        size_t indent = 0;
+        while (indent < content && !char_is_break(text.ptr[content - indent - 1]))
+            indent++;
+        const bool is_list = begins_item(text, content) && !begins_item(text, at);
+        if (content == text.len || indent < column || (indent == column && !is_list) ||
+            (column == 0 && is_list && end == at))
+            break;
+        end = next = content;
+    }
+    return end;
+}
+
 // Whether the line has more than the dash of a list's item before `end`.
 static bool has_content(str text, size_t end) {
     for (; end > 0 && !char_is_break(text.ptr[end - 1]); end--)
@@ -89,13 +163,20 @@ static const struct gap *content_after(struct allows *allows, span comment, str 
     struct gap *gap = &allows->last;
     if (gap->source == comment.source && gap->begin <= comment.end && comment.end <= gap->end)
         return gap;
-    *gap = (struct gap){.source = comment.source, .begin = comment.end};
+    if (is_xml && (gap->source != comment.source || gap->begin == 0))
+        gap->root = root_of(text);
+    *gap = (struct gap){.source = comment.source, .begin = comment.end, .root = gap->root};
     gap->end = skip_to_content(text, comment.end, is_xml);
-    gap->tag_end = is_xml ? tag_end(text, gap->end) : gap->end;
+    if (!is_xml)
+        gap->content_end = entry_end(text, gap->end);
+    else
+        gap->content_end = gap->end <= gap->root ? tag_end(text, gap->end) : element_end(text, gap->end);
     return gap;
 }
 
-// The lines that a comment applies to: its own if something is before it, else the next one with content.
+// The lines that a comment applies to: its own if something is before it, else those of the entry that
+// follows, so that a comment goes on silencing the same where another spelling has the finding on a later
+// line of it.
 static void find_lines(struct allows *allows, span comment, struct allow *allow) {
     struct session *session = allows->session;
     const struct source *source = &session->sources.items[comment.source];
@@ -109,7 +190,7 @@ static void find_lines(struct allows *allows, span comment, struct allow *allow)
         trailing = has_content(text, before);
     const struct gap *gap = trailing ? NULL : content_after(allows, comment, text, is_xml);
     size_t first = gap ? gap->end : before - 1;
-    size_t last = gap ? gap->tag_end : first;
+    size_t last = gap ? gap->content_end : first;
     if (is_xml && trailing)
         while (first > 0 && text.ptr[first] != '<')
             first--;

@@ -1,6 +1,7 @@
 #include "assets/stl/read_stl.h"
 
 #include "assets/stl/stl_text.h"
+#include "assets/stl/weld.h"
 #include "grammar/mesh_format.h"
 
 #include <math.h>
@@ -11,8 +12,7 @@ enum {
     TEXT_BYTES = 80,
     FACET_BYTES = 50, // a normal, three corners, two bytes of attributes
     NORMAL_BYTES = 12,
-    POINT_BYTES = 12,
-    AT_ONCE = 32, // facets
+    AHEAD_BYTES = 2048, // what is asked for while facets are read
 };
 
 static uint32_t load32(const char *at) {
@@ -44,57 +44,62 @@ static bool is_text(str text) {
 struct binary {
     struct asset_file *file;
     struct polygons *out;
-    struct join join;
+    struct weld weld;
     uint32_t count;  // of facets
     uint32_t colors; // of them have attributes
-    // Of the corners of some facets.
-    vec3 positions[3 * AT_ONCE];
-    uint32_t vertices[3 * AT_ONCE];
 };
 
-// A coordinate, never -0.
 static float load_coordinate(const char *at) {
     const uint32_t bits = load32(at);
     float value;
     memcpy(&value, &bits, sizeof value);
-    return value + 0.0F;
+    return value;
 }
 
-static bool is_fine(const float point[3]) {
-    return fabsf(point[0]) <= (float)MESH_COORDINATE_MAX && fabsf(point[1]) <= (float)MESH_COORDINATE_MAX &&
-           fabsf(point[2]) <= (float)MESH_COORDINATE_MAX;
+static bool is_fine(float coordinate) {
+    return fabsf(coordinate) <= (float)MESH_COORDINATE_MAX;
 }
 
-static void report_point(struct binary *b, uint32_t facet, const char *at, const float point[3]) {
-    int k = 0;
-    while (k < 2 && fabsf(point[k]) <= (float)MESH_COORDINATE_MAX)
-        k++;
-    asset_report_byte(b->file, DIAG_MESH_NUMBER, (uint64_t)(at - b->file->text.ptr) + 4 * (uint64_t)k,
-                      "%.9g in facet %u is not a number up to 1e18", (double)point[k], facet + 1);
-}
-
-// Its corners' positions.
-static void read_facet(struct binary *b, const char *at, uint32_t facet, vec3 *positions) {
-    b->out->faces.items[facet] = (struct polygon_face){.first = 3 * facet, .line = facet + 1};
-    for (int k = 0; k < 3; k++) {
-        const char *place = at + NORMAL_BYTES + k * POINT_BYTES;
-        const float p[3] = {load_coordinate(place), load_coordinate(place + 4), load_coordinate(place + 8)};
-        if (!is_fine(p))
-            report_point(b, facet, place, p);
-        positions[k] = (vec3){(double)p[0], (double)p[1], (double)p[2]};
+// The first coordinate that is wrong in each corner.
+static void report_facet(struct binary *b, uint32_t facet, const char *at) {
+    for (int i = 0; i < WELD_FLOATS; i++) {
+        const char *place = at + NORMAL_BYTES + 4 * (size_t)i;
+        if (is_fine(load_coordinate(place)))
+            continue;
+        asset_report_byte(b->file, DIAG_MESH_NUMBER, (uint64_t)(place - b->file->text.ptr),
+                          "%.9g in facet %u is not a number up to 1e18", (double)load_coordinate(place),
+                          facet + 1);
+        i += 2 - i % 3;
     }
-    b->colors += at[FACET_BYTES - 2] != 0 || at[FACET_BYTES - 1] != 0;
+}
+
+// The corners' positions, no coordinate -0; false: one is wrong.
+static bool read_positions(struct binary *b, uint32_t begin, uint32_t end) {
+    float *positions = weld_room(&b->weld);
+    const char *at = b->file->text.ptr + HEAD_BYTES + (size_t)FACET_BYTES * begin;
+    struct polygon_face *faces = b->out->faces.items;
+    uint32_t colors = 0;
+    bool fine = true;
+    for (uint32_t facet = begin; facet < end; facet++, at += FACET_BYTES, positions += WELD_FLOATS) {
+        __builtin_prefetch(at + AHEAD_BYTES);
+        faces[facet] = (struct polygon_face){.first = 3 * facet, .line = facet + 1};
+        colors += (at[FACET_BYTES - 2] | at[FACET_BYTES - 1]) != 0;
+        for (int i = 0; i < WELD_FLOATS; i++) {
+            positions[i] = load_coordinate(at + NORMAL_BYTES + 4 * (size_t)i) + 0.0F;
+            fine &= is_fine(positions[i]);
+        }
+    }
+    b->colors += colors;
+    return fine;
 }
 
 static void read_facets(struct binary *b, uint32_t begin, uint32_t end) {
-    for (uint32_t i = begin; i < end; i++)
-        read_facet(b, b->file->text.ptr + HEAD_BYTES + (size_t)FACET_BYTES * i, i,
-                   b->positions + 3 * (i - begin));
-    if (b->file->errors)
-        return;
-    join_vertices(&b->join, b->positions, 3 * (end - begin), b->vertices);
-    for (uint32_t i = 0; i < 3 * (end - begin); i++)
-        b->out->corners.items[3 * (size_t)begin + i] = (struct polygon_corner){b->vertices[i], IR_NO_INDEX};
+    const char *at = b->file->text.ptr + HEAD_BYTES + (size_t)FACET_BYTES * begin;
+    if (!read_positions(b, begin, end))
+        for (uint32_t facet = begin; facet < end; facet++, at += FACET_BYTES)
+            report_facet(b, facet, at);
+    if (b->file->errors == 0)
+        weld_facets(&b->weld, end - begin, b->out->corners.items + 3 * (size_t)begin);
 }
 
 // Whether the file is as long as it says.
@@ -141,9 +146,10 @@ static void read_binary(struct asset_file *file, struct arena *scratch, struct p
     out->corners.items = ARENA_ARRAY(scratch, struct polygon_corner, out->corners.count);
     *ARENA_PUSH(scratch, &out->groups) = (struct mesh_group){.name = STR("")};
     // A closed mesh has about half as many vertices as triangles.
-    join_init(&b.join, scratch, out, b.count / 2 + 2);
-    for (uint32_t i = 0; i < b.count; i += AT_ONCE)
-        read_facets(&b, i, b.count - i < AT_ONCE ? b.count : i + AT_ONCE);
+    weld_init(&b.weld, scratch, out, b.count / 2 + 2);
+    for (uint32_t i = 0; i < b.count; i += WELD_FACETS)
+        read_facets(&b, i, b.count - i < WELD_FACETS ? b.count : i + WELD_FACETS);
+    weld_finish(&b.weld);
     const size_t rest = file->text.len - HEAD_BYTES - (size_t)FACET_BYTES * b.count;
     out->losses[MESH_LOSS_REST].count = rest < UINT32_MAX ? (uint32_t)rest : UINT32_MAX;
     out->losses[MESH_LOSS_SCANNED].count = b.colors;

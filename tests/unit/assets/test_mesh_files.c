@@ -1,5 +1,6 @@
 // PLY and STL: the same mesh from every form of file, what is said of wrong ones, and files that are damaged.
 #include "assets_scene.h"
+#include "core/splitmix.h"
 #include "mesh_kit.h"
 
 #include <math.h>
@@ -305,6 +306,48 @@ static void binary_is_told_by_its_bytes(void **state) {
     strbuf_finish(&bytes);
 }
 
+// Bytes and text are joined by tables of their own. In turn: few positions, so that most facets repeat one;
+// as many as the table is made for; and no two the same, so that it grows.
+static void joined_as_text_is(void **state) {
+    (void)state;
+    enum {
+        FACETS = 2000
+    };
+    static const unsigned kinds[] = {3, 10, 1U << 20};
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        static double positions[9 * FACETS];
+        static uint32_t corners[3 * FACETS];
+        uint64_t random = 5;
+        for (size_t i = 0; i < 9 * (size_t)FACETS; i++)
+            positions[i] =
+                i % 3 == 2 && splitmix_next(&random) % 2 ? -0.0 : (double)(splitmix_next(&random) % kinds[k]);
+        for (uint32_t i = 0; i < 3 * FACETS; i++)
+            corners[i] = i;
+        const struct mesh_kit kit = {.positions = positions,
+                                     .vertex_count = 3 * FACETS,
+                                     .corners = corners,
+                                     .face_count = FACETS,
+                                     .single = true};
+        struct assets_scene *scenes[2];
+        const struct mesh *meshes[2];
+        for (int i = 0; i < 2; i++) {
+            const enum mesh_kit_form form = i ? MESH_KIT_STL_BINARY : MESH_KIT_STL_TEXT;
+            struct strbuf bytes = written(kit, form);
+            scenes[i] = assets_scene_begin();
+            meshes[i] = load(scenes[i], mesh_kit_names[form], bytes.data, bytes.len);
+            assert_non_null(meshes[i]);
+            assert_int_equal(meshes[i]->is_binary, i);
+            strbuf_finish(&bytes);
+        }
+        assert_same_corners(meshes[0], meshes[1]);
+        assert_int_equal(meshes[0]->position_count, meshes[1]->position_count);
+        assert_memory_equal(meshes[0]->positions, meshes[1]->positions,
+                            meshes[0]->position_count * sizeof *meshes[0]->positions);
+        for (int i = 0; i < 2; i++)
+            assets_scene_end(scenes[i]);
+    }
+}
+
 // A colour in the bytes after a facet.
 static void attributes_are_noted(void **state) {
     (void)state;
@@ -430,6 +473,7 @@ int main(void) {
         cmocka_unit_test(strips_are_triangles),
         cmocka_unit_test(faults_of_stl_are_placed),
         cmocka_unit_test(binary_is_told_by_its_bytes),
+        cmocka_unit_test(joined_as_text_is),
         cmocka_unit_test(attributes_are_noted),
         cmocka_unit_test(solids_are_groups),
         cmocka_unit_test(limits_hold),
