@@ -4,22 +4,19 @@
 #include "grammar/ir.h"
 #include "grammar/print/ir_print.h"
 
-const struct ir_scene *import_around(const struct import_source *source, str path) {
-    struct diag_sink sink = {0}; // keeps nothing
-    struct assets_input quiet = *source->input;
-    struct ir_scene *scene = ARENA_NEW(quiet.arena, struct ir_scene);
-    quiet.sink = &sink;
-    struct gltf_document *document = source->store ? import_open(&quiet, path) : NULL;
-    const bool lacks = document && document->file.errors == 0 && import_lacks(document);
-    gltf_documents_finish(document);
-    diag_sink_finish(&sink);
-    return lacks && around_scene(source->store, source->input, path, source->width, source->height,
-                                 source->assets, scene)
+const struct ir_scene *import_around(const struct import_source *source,
+                                     const struct gltf_document *document) {
+    if (!source->store || document->file.errors || !import_lacks(document))
+        return NULL;
+    struct ir_scene *scene = ARENA_NEW(source->input->arena, struct ir_scene);
+    return around_scene(source->store, source->input, document->file.path, source->width, source->height,
+                        source->assets, scene)
                ? scene
                : NULL;
 }
 
 struct making {
+    const struct import_source *source;
     const struct ir_scene *around;
     struct gltf_document *document;
     const struct assets_input *input;
@@ -44,12 +41,23 @@ static void make(void *context) {
     import_report(m->document);
 }
 
-static bool write_scene(const struct assets_input *quiet, const struct assets_input *input,
-                        const struct ir_scene *around, str path, struct strbuf *text) {
+static void find_around(void *context) {
+    struct making *m = context;
+    m->around = import_around(m->source, m->document);
+}
+
+// The file is opened once for all that is asked of it, and closed also where memory ends.
+static bool write_scene(const struct import_source *source, const struct assets_input *quiet, str path,
+                        struct strbuf *text) {
     struct making making = {
-        .around = around, .document = import_open(quiet, path), .input = input, .text = text};
+        .source = source, .document = import_open(quiet, path), .input = source->input, .text = text};
     if (!making.document)
         return false;
+    const enum arena_fault fault = arena_guarded(source->input->arena, find_around, &making);
+    if (fault) {
+        gltf_documents_finish(making.document);
+        arena_raise(source->input->arena, fault);
+    }
     if (making.document->file.errors == 0)
         gltf_document_guarded(making.document, NULL, make, &making);
     // A scene that shows no mesh has nothing to say but that.
@@ -59,14 +67,12 @@ static bool write_scene(const struct assets_input *quiet, const struct assets_in
 }
 
 bool import_scene_text(const struct import_source *source, str path, struct strbuf *text) {
-    const struct assets_input *input = source->input;
-    const struct ir_scene *around = import_around(source, path);
-    struct diag_sink sink = {0};
-    struct assets_input quiet = *input;
+    struct diag_sink sink = {0}; // keeps nothing
+    struct assets_input quiet = *source->input;
     quiet.sink = &sink;
     quiet.uses = NULL;
     const size_t before = text->len;
-    const bool good = write_scene(&quiet, input, around, path, text);
+    const bool good = write_scene(source, &quiet, path, text);
     if (!good)
         text->len = before;
     diag_sink_finish(&sink);

@@ -16,8 +16,9 @@ struct import_source {
     struct assets *assets; // takes what is used of the store: assets_finish, also if memory ends
     int32_t width, height; // of the picture; 0: the default
 };
-// The scene around a file that lacks a camera or lights; NULL: it needs none, or has none.
-const struct ir_scene *import_around(const struct import_source *source, str path);
+// The scene around an open file that lacks a camera or lights; NULL: it needs none, or has none.
+const struct ir_scene *import_around(const struct import_source *source,
+                                     const struct gltf_document *document);
 
 bool import_scene_text(const struct import_source *source, str path, struct strbuf *text);
 

@@ -42,6 +42,11 @@ static double number_at(const char *at, unsigned component, bool normalized) {
 }
 
 static void read_element(const struct gltf_accessor *a, const char *at, double *out) {
+    if (a->component == GLTF_FLOAT) {
+        for (uint32_t k = 0; k < a->components; k++)
+            out[k] = number_at(at + 4 * (size_t)k, GLTF_FLOAT, false);
+        return;
+    }
     const uint32_t size = gltf_component_bytes(a->component);
     for (uint32_t k = 0; k < a->components; k++)
         out[k] = number_at(at + (size_t)k * size, a->component, a->normalized);
@@ -69,6 +74,22 @@ static double *read_elements(const struct gltf *gltf, const struct gltf_accessor
     for (uint32_t i = 0; i < a->sparse.count; i++)
         read_element(a, view_at(gltf, a->sparse.value_view, a->sparse.value_offset + (uint64_t)i * size),
                      out + (size_t)sparse_index(gltf, &a->sparse, i) * a->components);
+    return out;
+}
+
+// As read_elements, of an accessor of whole numbers that are not normalized.
+static uint32_t *read_indices(const struct gltf *gltf, const struct gltf_accessor *a) {
+    uint32_t *out = ARENA_ARRAY(gltf->arena, uint32_t, a->count);
+    if (a->view != GLTF_NONE && a->count) {
+        const char *at = view_at(gltf, a->view, a->offset);
+        const uint32_t stride = gltf_stride(gltf, a);
+        for (uint32_t i = 0; i < a->count; i++)
+            out[i] = whole_at(at + (size_t)i * stride, a->component);
+    }
+    const uint32_t size = gltf_element_bytes(a);
+    for (uint32_t i = 0; i < a->sparse.count; i++)
+        out[sparse_index(gltf, &a->sparse, i)] = whole_at(
+            view_at(gltf, a->sparse.value_view, a->sparse.value_offset + (uint64_t)i * size), a->component);
     return out;
 }
 
@@ -110,8 +131,8 @@ static void check_bounds(struct gltf *gltf, const struct gltf_accessor *a, const
         !gltf_get_numbers(gltf, a->node, "max", -HUGE_VAL, HUGE_VAL, 3, most))
         return;
     for (size_t i = 0; i < 3 * (size_t)a->count; i++) {
-        low[i % 3] = fmin(low[i % 3], elements[i]);
-        high[i % 3] = fmax(high[i % 3], elements[i]);
+        low[i % 3] = elements[i] < low[i % 3] ? elements[i] : low[i % 3];
+        high[i % 3] = elements[i] > high[i % 3] ? elements[i] : high[i % 3];
     }
     for (int k = 0; k < 3; k++) {
         const bool is_low = (float)low[k] != (float)least[k];
@@ -138,18 +159,22 @@ static bool check_numbers(struct gltf *gltf, const struct gltf_accessor *a, cons
     return true;
 }
 
+static bool can_read(struct gltf *gltf, const struct gltf_accessor *a) {
+    if (a->view == GLTF_NONE && a->count > gltf->most_elements) {
+        gltf_add(gltf, DIAG_LIMIT, a->node,
+                 "'%s' has %u elements and no bytes; the limit on triangles allows %llu",
+                 gltf_where(gltf, a->node), a->count, (unsigned long long)gltf->most_elements);
+        return false;
+    }
+    return check_sparse(gltf, a);
+}
+
 // The elements of an accessor, read and checked once; NULL: there is none, or it has an error.
 static const double *elements_of(struct gltf *gltf, uint32_t accessor, bool is_position) {
     struct gltf_accessor *a = accessor == GLTF_NONE ? NULL : &gltf->accessors.items[accessor];
     if (!a || a->elements)
         return a ? a->elements : NULL;
-    if (a->view == GLTF_NONE && a->count > gltf->most_elements) {
-        gltf_add(gltf, DIAG_LIMIT, a->node,
-                 "'%s' has %u elements and no bytes; the limit on triangles allows %llu",
-                 gltf_where(gltf, a->node), a->count, (unsigned long long)gltf->most_elements);
-        return NULL;
-    }
-    if (!check_sparse(gltf, a))
+    if (!can_read(gltf, a))
         return NULL;
     const double *elements = read_elements(gltf, a);
     if (!check_numbers(gltf, a, elements))
@@ -158,6 +183,13 @@ static const double *elements_of(struct gltf *gltf, uint32_t accessor, bool is_p
         check_bounds(gltf, a, elements);
     a->elements = elements;
     return elements;
+}
+
+static const uint32_t *indices_of(struct gltf *gltf, uint32_t accessor) {
+    struct gltf_accessor *a = accessor == GLTF_NONE ? NULL : &gltf->accessors.items[accessor];
+    if (a && !a->indices && can_read(gltf, a))
+        a->indices = read_indices(gltf, a);
+    return a ? a->indices : NULL;
 }
 
 static uint32_t corner_count(const struct gltf *gltf, const struct gltf_primitive *p) {
@@ -175,12 +207,12 @@ static void check_count(struct gltf *gltf, const struct gltf_primitive *p) {
                  gltf_where(gltf, p->node), count);
 }
 
-static bool check_indices(struct gltf *gltf, const struct gltf_primitive *p, const double *indices,
+static bool check_indices(struct gltf *gltf, const struct gltf_primitive *p, const uint32_t *indices,
                           uint32_t vertices) {
     const uint32_t count = gltf->accessors.items[p->indices].count;
     for (uint32_t i = 0; i < count; i++)
         if (indices[i] >= vertices) {
-            gltf_add(gltf, DIAG_GLTF_DATA, p->node, "index %u of '%s' is %.0f, and there are %u vertices", i,
+            gltf_add(gltf, DIAG_GLTF_DATA, p->node, "index %u of '%s' is %u, and there are %u vertices", i,
                      gltf_where(gltf, p->node), indices[i], vertices);
             return false;
         }
@@ -197,8 +229,10 @@ uint64_t gltf_triangle_count(const struct gltf *gltf, const struct gltf_primitiv
 }
 
 static const uint32_t *corners_of(const struct gltf *gltf, const struct gltf_primitive *p,
-                                  const double *indices, struct arena *arena) {
+                                  const uint32_t *indices, struct arena *arena) {
     const uint64_t triangles = gltf_triangle_count(gltf, p);
+    if (indices && p->mode == GLTF_TRIANGLES)
+        return indices;
     uint32_t *out = ARENA_ARRAY(arena, uint32_t, heap_times(3, triangles));
     for (uint64_t t = 0; t < triangles; t++) {
         const uint32_t i = (uint32_t)t, odd = i & 1;
@@ -214,7 +248,7 @@ static const uint32_t *corners_of(const struct gltf *gltf, const struct gltf_pri
             at[2] = 0;
         }
         for (size_t k = 0; k < 3; k++)
-            out[3 * t + k] = indices ? (uint32_t)indices[at[k]] : at[k];
+            out[3 * t + k] = indices ? indices[at[k]] : at[k];
     }
     return out;
 }
@@ -231,7 +265,7 @@ bool gltf_read_primitive(struct gltf *gltf, const struct gltf_primitive *p, stru
     out->normals = elements_of(gltf, p->normal, false);
     for (int i = 0; i < GLTF_COORDINATE_SETS; i++)
         out->coordinates[i] = elements_of(gltf, p->coordinates[i], false);
-    const double *indices = elements_of(gltf, p->indices, false);
+    const uint32_t *indices = indices_of(gltf, p->indices);
     if (gltf->errors > errors || (indices && !check_indices(gltf, p, indices, out->vertices)))
         return false;
     out->triangles = (uint32_t)gltf_triangle_count(gltf, p);

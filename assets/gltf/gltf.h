@@ -75,7 +75,8 @@ struct gltf_accessor {
     uint32_t components; // 1 to 4, 9, 16
     bool is_matrix;
     bool normalized;
-    const double *elements; // all of them, once they were read; normalized integers from 0, or -1, to 1
+    const uint32_t *indices; // all of them, once they were read as indices
+    const double *elements;  // all of them, once they were read; normalized integers from 0, or -1, to 1
     struct gltf_sparse sparse;
 };
 

@@ -240,9 +240,13 @@ static void read_scene(struct gltf *gltf) {
     gltf->order = ARENA_ARRAY(gltf->arena, uint32_t, (size_t)gltf->nodes.count + 1);
     gltf_get_index(gltf, root, "scene", scenes ? json_at(&gltf->json, scenes)->count : 0, &index);
     index = index == GLTF_NONE ? 0 : index;
-    for (json_index at = 0; scenes && (at = gltf_next_object(gltf, scenes, at));)
-        if (count++ == index && gltf_get_list(gltf, at, "nodes"))
-            show_list(gltf, &walk, gltf_get_list(gltf, at, "nodes"));
+    for (json_index at = 0; scenes && (at = gltf_next_object(gltf, scenes, at));) {
+        const json_index shown = gltf_get_list(gltf, at, "nodes");
+        if (count++ == index && shown)
+            show_list(gltf, &walk, shown);
+        else if (shown && json_at(&gltf->json, shown)->count)
+            gltf_lose(gltf, GLTF_LOSS_SCENE, at);
+    }
     for (uint32_t i = 0; count == 0 && i < gltf->nodes.count; i++)
         if (gltf->nodes.items[i].parent == GLTF_NONE)
             show(gltf, &walk, i);

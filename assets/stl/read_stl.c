@@ -135,6 +135,15 @@ static bool is_within_limits(struct binary *b) {
     return b->count > 0 && b->count <= most;
 }
 
+// Whether the header has the colour of all facets, as some CAD programs write it.
+static bool has_color(str text) {
+    static const char word[] = "COLOR=";
+    for (size_t at = 0; at + sizeof word - 1 <= TEXT_BYTES; at++)
+        if (memcmp(text.ptr + at, word, sizeof word - 1) == 0)
+            return true;
+    return false;
+}
+
 static void read_binary(struct asset_file *file, struct arena *scratch, struct polygons *out) {
     struct binary b = {.file = file, .out = out};
     file->is_binary = out->is_binary = true;
@@ -152,7 +161,7 @@ static void read_binary(struct asset_file *file, struct arena *scratch, struct p
     weld_finish(&b.weld);
     const size_t rest = file->text.len - HEAD_BYTES - (size_t)FACET_BYTES * b.count;
     out->losses[MESH_LOSS_REST].count = rest < UINT32_MAX ? (uint32_t)rest : UINT32_MAX;
-    out->losses[MESH_LOSS_SCANNED].count = b.colors;
+    out->losses[MESH_LOSS_SCANNED].count = b.colors + has_color(file->text);
 }
 
 void read_stl(struct asset_file *file, struct arena *scratch, struct polygons *out) {

@@ -80,8 +80,8 @@ static void make(void *context) {
     struct assets_input input = session_assets_input(job->session);
     input.sink = &quiet;
     const struct import_source source = {&input, job->store, &job->around, 0, 0};
-    const struct ir_scene *around = import_around(&source, job->session->options.path);
     job->document = import_open(&input, job->session->options.path);
+    const struct ir_scene *around = job->document ? import_around(&source, job->document) : NULL;
     const str out = strcmp(job->out, "-") == 0 ? STR("") : str_from(job->out);
     job->good = job->document && import_plan_make(job->document, around, out, &job->plan);
     if (job->good)

@@ -348,16 +348,21 @@ static void joined_as_text_is(void **state) {
     }
 }
 
-// A colour in the bytes after a facet.
+// A colour in the bytes after a facet, or for all of them in the header.
 static void attributes_are_noted(void **state) {
     (void)state;
-    struct strbuf bytes = written(cube(true, false, true), MESH_KIT_STL_BINARY);
-    bytes.data[84 + 48] = 1;
-    struct assets_scene *s = assets_scene_begin();
-    assert_non_null(load(s, "m.stl", bytes.data, bytes.len));
-    assert_says(s, "note: the mesh has colours of its own, which are not used");
-    assets_scene_end(s);
-    strbuf_finish(&bytes);
+    for (int i = 0; i < 2; i++) {
+        struct strbuf bytes = written(cube(true, false, true), MESH_KIT_STL_BINARY);
+        if (i)
+            memcpy(bytes.data + 80 - 10, "COLOR=\377\200\0\377", 10);
+        else
+            bytes.data[84 + 48] = 1;
+        struct assets_scene *s = assets_scene_begin();
+        assert_non_null(load(s, "m.stl", bytes.data, bytes.len));
+        assert_says(s, "note: the mesh has colours of its own, which are not used");
+        assets_scene_end(s);
+        strbuf_finish(&bytes);
+    }
 }
 
 // Solids with names are groups; one by itself is none, whatever its name.
