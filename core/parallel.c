@@ -18,6 +18,10 @@ enum {
 // thread's share, so that nested calls do not multiply their threads.
 static _Thread_local unsigned share;
 
+// Who looks on at this thread, and the loop whose progress it is told; NULL: there is none.
+static _Thread_local const struct parallel_looker *looker;
+static _Thread_local const struct job *shown;
+
 struct job {
     unsigned share; // of each thread
     parallel_body *body;
@@ -34,6 +38,19 @@ unsigned parallel_processors(void) {
     return online < 1 ? 1 : online > THREADS_MAX ? THREADS_MAX : (unsigned)online;
 }
 
+void parallel_look(const struct parallel_looker *by) {
+    looker = by;
+}
+
+static void look(const struct job *job) {
+    const struct parallel_looker *by = looker;
+    const struct job *told = shown ? shown : job;
+    const size_t taken = atomic_load(&told->next);
+    looker = NULL;
+    by->look(by->context, taken < told->count ? taken : told->count, told->count);
+    looker = by;
+}
+
 static void *take_pieces(void *argument) {
     struct job *job = argument;
     share = job->share;
@@ -43,6 +60,8 @@ static void *take_pieces(void *argument) {
             return NULL;
         size_t left = job->count - begin;
         job->body(job->context, begin, begin + (left < job->piece ? left : job->piece));
+        if (looker)
+            look(job);
     }
 }
 
@@ -59,7 +78,10 @@ void parallel_for(size_t count, size_t piece, parallel_body *body, void *context
     while (started + 1 < wanted && started + 1 < pieces &&
            pthread_create(&threads[started], NULL, take_pieces, &job) == 0)
         started++;
+    const struct job *outer = shown;
+    shown = outer || pieces < 2 || !looker ? outer : &job;
     take_pieces(&job);
+    shown = outer;
     share = before;
     for (unsigned i = 0; i < started; i++)
         pthread_join(threads[i], NULL);

@@ -16,6 +16,15 @@ typedef void parallel_body(void *context, size_t begin, size_t end);
 // thread that runs the work. Calls inside `body` share the processors: threads do not multiply. Falls back to
 // the calling thread if none can be made.
 void parallel_for(size_t count, size_t piece, parallel_body *body, void *context);
+// Somebody who looks on while a thread's work goes on: called on that thread after each piece that it took,
+// with how many of the items of its outermost loop of several pieces are taken. It must leave the work alone,
+// and what it does itself by parallel_for is not looked at. NULL: nobody. Ownership: the looker is its
+// caller's.
+struct parallel_looker {
+    void (*look)(void *context, size_t done, size_t count);
+    void *context;
+};
+void parallel_look(const struct parallel_looker *looker);
 // Processors that this process may use, at least 1.
 unsigned parallel_processors(void);
 

@@ -15,6 +15,8 @@ void timeline_add(struct timeline *timeline, const char *name, str detail, doubl
     if (at < TIMELINE_MOST)
         timeline->phases[at] =
             (struct timeline_phase){name, detail, gettid(), begin, clock_seconds() - begin};
+    if (timeline->ended)
+        timeline->ended(timeline->context, name);
 }
 
 // What began at the same time and is longer holds the other.

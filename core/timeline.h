@@ -24,6 +24,9 @@ struct timeline_phase {
 
 struct timeline {
     atomic_uint count; // may be above TIMELINE_MOST
+    // Called by timeline_add, on its thread, when a phase has ended. NULL: nothing.
+    void (*ended)(void *context, const char *name);
+    void *context;
     struct timeline_phase phases[TIMELINE_MOST];
 };
 

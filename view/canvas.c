@@ -71,8 +71,9 @@ void canvas_darken(struct canvas *canvas, uint32_t x, uint32_t y, uint32_t width
                 canvas->pixels[4 * ((size_t)row * canvas->width + at) + (size_t)c] /= 4;
 }
 
-static void put_dot(struct canvas *canvas, uint32_t x, uint32_t y, uint32_t scale, uint32_t rgb) {
-    const uint32_t right = least(x + scale, canvas->width), below = least(y + scale, canvas->height);
+void canvas_fill(struct canvas *canvas, uint32_t x, uint32_t y, uint32_t width, uint32_t height,
+                 uint32_t rgb) {
+    const uint32_t right = least(x + width, canvas->width), below = least(y + height, canvas->height);
     for (uint32_t row = y; row < below; row++)
         for (uint32_t at = x; at < right; at++) {
             uint8_t *to = canvas->pixels + 4 * ((size_t)row * canvas->width + at);
@@ -92,7 +93,8 @@ void canvas_put_text(struct canvas *canvas, uint32_t x, uint32_t y, uint32_t sca
         const char *dots = glyph_of(text.ptr[i]);
         for (uint32_t k = 0; k < FONT_WIDTH * FONT_HEIGHT; k++)
             if (dots[k] == '#')
-                put_dot(canvas, x + k % FONT_WIDTH * scale, y + k / FONT_WIDTH * scale, scale, rgb);
+                canvas_fill(canvas, x + k % FONT_WIDTH * scale, y + k / FONT_WIDTH * scale, scale, scale,
+                            rgb);
     }
 }
 

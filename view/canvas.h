@@ -23,6 +23,9 @@ bool canvas_resize(struct canvas *canvas, uint32_t width, uint32_t height);
 void canvas_finish(struct canvas *canvas);
 // A picture of width * height * 3 bytes, red first, over all of the canvas: the nearest pixel.
 void canvas_put_picture(struct canvas *canvas, const uint8_t *rgb, uint32_t width, uint32_t height);
+// A box of one colour, 0xrrggbb; what lies outside the canvas is left out.
+void canvas_fill(struct canvas *canvas, uint32_t x, uint32_t y, uint32_t width, uint32_t height,
+                 uint32_t rgb);
 // A darker box; what lies outside the canvas is left out.
 void canvas_darken(struct canvas *canvas, uint32_t x, uint32_t y, uint32_t width, uint32_t height);
 // A line of text from its upper left corner on, each dot `scale` pixels wide. What does not fit is left out.

@@ -61,6 +61,8 @@ static struct steer_action action_of(int key) {
     switch (key) {
     case STEER_ESCAPE:
         return (struct steer_action){.what = STEER_QUIT};
+    case STEER_F1:
+        return (struct steer_action){.what = STEER_KEYS};
     case STEER_TAB:
         return (struct steer_action){.what = STEER_NEXT};
     case 'R':

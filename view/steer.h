@@ -28,6 +28,7 @@ enum steer_kind {
 };
 
 enum {
+    STEER_F1 = 1,
     STEER_TAB = 9,
     STEER_ESCAPE = 27,
     STEER_LEFT = 0, // buttons
@@ -52,6 +53,7 @@ enum steer_do {
     STEER_PRINT,   // the camera as text
     STEER_NEXT,    // what is shown of each pixel
     STEER_OVERLAY, // on or off
+    STEER_KEYS,    // shown or not
     STEER_PICK,    // x, y
 };
 

@@ -44,7 +44,7 @@ static void take_scene(struct viewer *v) {
 // false: the device failed.
 static bool reload(struct viewer *v) {
     v->has_changed = false;
-    const enum live_state state = live_load(v->live);
+    const enum live_state state = viewer_load(v);
     if (state == LIVE_FAILED)
         return false;
     v->is_broken = state == LIVE_BROKEN;
@@ -109,8 +109,7 @@ static bool step(struct viewer *v) {
     }
     if (!v->quits && !draw(v, has_acted))
         return false;
-    viewer_write(v);
-    return true;
+    return viewer_write(v);
 }
 
 static double extent_of(const struct session *session) {
@@ -119,7 +118,11 @@ static double extent_of(const struct session *session) {
 }
 
 static enum viewer_status begin(struct viewer *v) {
-    const enum live_state state = live_load(v->live);
+    v->screen = gpu_screen_create(v->gpu, window_make_surface, v->window);
+    if (!v->screen)
+        return VIEWER_DEVICE;
+    viewer_begin_loads(v);
+    const enum live_state state = viewer_load(v);
     if (state != LIVE_SHOWN)
         return state == LIVE_BROKEN ? VIEWER_BROKEN : VIEWER_DEVICE;
     v->camera = v->live->camera;
@@ -130,9 +133,8 @@ static enum viewer_status begin(struct viewer *v) {
     window_resize(v->window, (uint32_t)image->width, (uint32_t)image->height);
     window_size(v->window, &v->width, &v->height);
     viewer_go_back(v);
-    v->screen = gpu_screen_create(v->gpu, window_make_surface, v->window);
     v->host->loaded(v->host->context, v->live, false);
-    return v->screen ? VIEWER_DONE : VIEWER_DEVICE;
+    return VIEWER_DONE;
 }
 
 enum viewer_status viewer_run(const struct viewer_wish *wish, const struct viewer_host *host, struct gpu *gpu,

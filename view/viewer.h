@@ -25,7 +25,8 @@ struct viewer_host {
     void (*say)(void *context, str line); // what the user asked for: where a pixel's body is, a camera
     // What a load has found, and what it did. `is_broken`: the picture stays that of before.
     void (*loaded)(void *context, struct live *live, bool is_broken);
-    void (*write)(void *context, const struct image *image, struct image_display display, uint32_t samples);
+    // false: the host has said why.
+    bool (*write)(void *context, const struct image *image, struct image_display display, uint32_t samples);
     bool (*is_over)(void *context); // a signal came
 };
 

@@ -142,6 +142,10 @@ static void print_camera(struct viewer *v) {
 
 // ---- actions
 
+static void say(struct viewer *v, const char *words) {
+    snprintf(v->said, sizeof v->said, "%s", words);
+}
+
 static void act(struct viewer *v, struct steer_action action) {
     switch (action.what) {
     case STEER_NOTHING:
@@ -157,9 +161,11 @@ static void act(struct viewer *v, struct steer_action action) {
         break;
     case STEER_WRITE:
         v->wants_write = true;
+        say(v, "the picture is written when it has all its samples");
         break;
     case STEER_PRINT:
         print_camera(v);
+        say(v, "the camera is in the terminal");
         break;
     case STEER_NEXT:
         v->mode = (enum viewer_mode)((v->mode + 1) % VIEWER_MODES);
@@ -167,18 +173,24 @@ static void act(struct viewer *v, struct steer_action action) {
     case STEER_OVERLAY:
         v->hides_overlay = !v->hides_overlay;
         break;
+    case STEER_KEYS:
+        v->shows_keys = !v->shows_keys;
+        break;
     case STEER_PICK:
         pick(v, action.x, action.y);
         break;
     }
 }
 
-void viewer_write(struct viewer *v) {
+bool viewer_write(struct viewer *v) {
     const uint32_t own = (uint32_t)v->live->session->image->samples;
     if (!v->wants_write || v->is_stale || v->is_coarse || v->shown.samples < own)
-        return;
+        return true;
     v->wants_write = false;
-    v->host->write(v->host->context, &v->shown.image, v->live->shot.display, v->shown.samples);
+    const bool done =
+        v->host->write(v->host->context, &v->shown.image, v->live->shot.display, v->shown.samples);
+    say(v, done ? "the picture is written" : "the picture cannot be written: the terminal says why");
+    return viewer_show(v);
 }
 
 bool viewer_act(struct viewer *v) {

@@ -2,6 +2,8 @@
 #ifndef GLINT_VIEW_VIEWER_PRIVATE_H
 #define GLINT_VIEW_VIEWER_PRIVATE_H
 
+#include "core/parallel.h"
+#include "core/timeline.h"
 #include "scene/hits.h"
 #include "tracer/gpu/gpu_screen.h"
 #include "view/canvas.h"
@@ -29,6 +31,25 @@ struct viewer_picture {
     double seconds; // of a sample of all pixels
 };
 
+// Steps of a load, in their order.
+enum viewer_step {
+    VIEWER_READS_TEXT,
+    VIEWER_READS_FILES, // meshes and images
+    VIEWER_BUILDS,
+    VIEWER_COMPILES,
+    VIEWER_STEPS,
+};
+
+// A load that is going on.
+struct viewer_loading {
+    struct timeline timeline; // that says where it is
+    struct parallel_looker looker;
+    enum viewer_step step;
+    double rest;     // of the step: 1 at its beginning, half as much after each loop
+    double fraction; // of the loop that goes on
+    double paused;   // clock: until when the bar is not drawn again
+};
+
 struct viewer {
     const struct viewer_wish *wish;
     const struct viewer_host *host;
@@ -50,7 +71,7 @@ struct viewer {
     uint8_t *bytes; // displayed, as large as `byte_room`
     size_t byte_room;
     enum viewer_mode mode;
-    bool hides_overlay;
+    bool hides_overlay, shows_keys;
     bool is_stale;  // what is shown is not what the eye sees
     bool is_coarse; // it has fewer pixels than the window
     bool is_broken; // the files have errors
@@ -63,13 +84,18 @@ struct viewer {
     double stepped;       // clock: when time went by last
     bool has_changed;     // a file that the scene is made from
     double shown_speed;   // of flight, that the text in the window says
-    char said[256];       // about what was clicked
+    struct viewer_loading loading;
+    char said[256]; // about what was clicked, or done
 };
 
 // viewer_look.c: settings of a picture of this size, with so many samples. false: see gpu_error.
 bool viewer_set_up(struct viewer *v, uint32_t width, uint32_t height, uint32_t samples);
 // The first hits of what is shown. false: see gpu_error.
 bool viewer_find_hits(struct viewer *v);
+
+// viewer_load.c: live_load, while the window shows how far it is.
+void viewer_begin_loads(struct viewer *v);
+enum live_state viewer_load(struct viewer *v);
 
 // viewer_draw.c: a picture of few pixels, with one sample. false: see gpu_error.
 bool viewer_draw_coarse(struct viewer *v);
@@ -83,8 +109,8 @@ bool viewer_show(struct viewer *v);
 
 // viewer_act.c: does what events that came ask for. Whether there were any.
 bool viewer_act(struct viewer *v);
-// Writes the picture, if that is wanted and it is whole.
-void viewer_write(struct viewer *v);
+// Writes the picture, if that is wanted and it is whole. false: see gpu_error.
+bool viewer_write(struct viewer *v);
 
 // viewer_events.c: events become actions and a steered camera.
 void viewer_take_events(struct viewer *v);

@@ -15,7 +15,8 @@
 enum {
     TEXT_COLOR = 0xf0f0f0,
     WARNING_COLOR = 0xffb060,
-    LINES_MAX = 12,
+    LINES_MAX = 16,
+    FINDINGS_MOST = 3, // that are shown; the terminal has all
     FEATURE_LINES = 4,
     COST_MOST = 8, // rays, that are shown as the brightest
 };
@@ -143,7 +144,7 @@ static void put_overlay(struct viewer *v, uint32_t scale) {
              v->live->shot.flat.is_double ? "double" : "single");
     snprintf(lines[1], sizeof lines[1], "%.1f ms per sample, %.1f million rays/s", 1e3 * shown->seconds,
              1e-6 * rays);
-    snprintf(lines[2], sizeof lines[2], "speed %.3g a second", v->steer.speed);
+    snprintf(lines[2], sizeof lines[2], "speed %.3g a second; F1 shows the keys", v->steer.speed);
     for (; count < 3; count++)
         texts[count] = str_from(lines[count]);
     const size_t room = v->width / (CANVAS_GLYPH_WIDTH * scale);
@@ -157,21 +158,61 @@ static void put_overlay(struct viewer *v, uint32_t scale) {
         strbuf_finish(&features[i]);
 }
 
-// The first lines of what is wrong with the files.
+static void put_keys(struct viewer *v, uint32_t scale) {
+    static const char *const lines[] = {
+        "W A S D  fly; E up, Q down",
+        "drag     look around",
+        "right    turn around",
+        "click    what is there",
+        "wheel    fly faster, slower",
+        "1 to 0   the scene's cameras",
+        "R        back to the camera",
+        "C        print the camera",
+        "P        write the picture",
+        "Tab      normals, depth, cost, error",
+        "H        text, or none",
+        "F1       keys, or none",
+        "Esc      end",
+    };
+    str texts[sizeof lines / sizeof *lines];
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
+        texts[i] = str_from(lines[i]);
+    canvas_put_lines(&v->canvas, texts, sizeof lines / sizeof *lines, scale, TEXT_COLOR, false);
+}
+
+// The next line of at most `room` characters, which ends where a word does if it can.
+static str take_line(str *left, size_t room) {
+    size_t end = left->len < room ? left->len : room;
+    if (left->len > room)
+        while (end > room / 2 && left->ptr[end] != ' ')
+            end--;
+    const str line = str_slice(*left, 0, end);
+    *left = str_trim(str_slice(*left, end, left->len));
+    return line;
+}
+
+// What is wrong with the files: without their lines, which an editor shows, as long lines as there is room.
 static void put_findings(struct viewer *v, uint32_t scale) {
     struct session *session = live_findings(v->live);
+    const size_t room = v->width / (CANVAS_GLYPH_WIDTH * scale);
     str texts[LINES_MAX];
     uint32_t count = 0;
     struct strbuf text;
     strbuf_init(&text);
     diag_sort(&session->sink);
-    diag_text(&text, &session->sink, &session->sources, (struct diag_text_options){.most = 3});
+    diag_text(&text, &session->sink, &session->sources, (struct diag_text_options){.most = FINDINGS_MOST});
     for (str left = strbuf_view(&text); left.len && count < LINES_MAX;) {
         size_t end = 0;
         while (end < left.len && left.ptr[end] != '\n')
             end++;
-        texts[count++] = str_slice(left, 0, end);
-        left = str_slice(left, end + 1, left.len);
+        str line = str_trim(str_slice(left, 0, end));
+        // Below a finding its line of the file is indented, as what marks a part of it is, and help behind
+        // '='.
+        if (left.ptr[0] == ' ' && line.len && line.ptr[0] != '=')
+            line = STR("");
+        while (line.len && room && count < LINES_MAX)
+            texts[count++] = take_line(&line, room);
+        left = str_slice(left, end + (end < left.len), left.len);
     }
     canvas_put_lines(&v->canvas, texts, count, scale, WARNING_COLOR, true);
     strbuf_finish(&text);
@@ -185,7 +226,9 @@ bool viewer_show(struct viewer *v) {
     const uint32_t scale = window_text_scale(v->window);
     v->shown_speed = v->steer.speed;
     canvas_put_picture(&v->canvas, v->bytes, v->shown.image.width, v->shown.image.height);
-    if (!v->hides_overlay)
+    if (v->shows_keys)
+        put_keys(v, scale);
+    else if (!v->hides_overlay)
         put_overlay(v, scale);
     if (v->is_broken)
         put_findings(v, scale);

@@ -1,6 +1,7 @@
 #include "view/window.h"
 
 #include "core/heap.h"
+#include "core/str.h"
 
 #include <dlfcn.h>
 #include <stdio.h>
@@ -17,6 +18,7 @@ enum {
     EVENTS_MAX = 256,
     LEAST_WIDTH = 64,
     LEAST_HEIGHT = 48,
+    ROOMY_WIDTH = 600, // points from which on a dot of text is two of them wide
 };
 
 // The functions that are used, by their names without the library's own.
@@ -27,6 +29,7 @@ enum {
     F(WindowHint)                                                                                            \
     F(CreateWindow)                                                                                          \
     F(DestroyWindow)                                                                                         \
+    F(ShowWindow)                                                                                            \
     F(SetWindowSize)                                                                                         \
     F(SetWindowTitle)                                                                                        \
     F(SetWindowSizeLimits)                                                                                   \
@@ -73,7 +76,7 @@ static struct window *opened;
 static void on_error(int code, const char *text) {
     (void)code;
     if (opened && opened->error)
-        snprintf(opened->error, WINDOW_ERROR_BYTES, "%s", text);
+        snprintf(opened->error, WINDOW_ERROR_BYTES, "%.*s", STR_ARG(str_trim(str_from(text))));
 }
 
 // ---- events
@@ -96,7 +99,10 @@ static int key_of(int key) {
         return key;
     if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9)
         return '0' + key - GLFW_KEY_KP_0;
-    return key == GLFW_KEY_TAB ? STEER_TAB : key == GLFW_KEY_ESCAPE ? STEER_ESCAPE : 0;
+    return key == GLFW_KEY_TAB      ? STEER_TAB
+           : key == GLFW_KEY_ESCAPE ? STEER_ESCAPE
+           : key == GLFW_KEY_F1     ? STEER_F1
+                                    : 0;
 }
 
 static void on_key(GLFWwindow *handle, int key, int code, int action, int mods) {
@@ -206,8 +212,19 @@ static void fit(const struct glfw *glfw, int *width, int *height) {
     *height = down > 0 ? least(*height, down) : *height;
 }
 
+// Units of the window's size per point: on X11 these are pixels, elsewhere points.
+static double units_per_point(struct window *window) {
+    int width = 0, height = 0, across = 0, down = 0;
+    float x = 1, y = 1;
+    window->glfw.GetWindowSize(window->handle, &width, &height);
+    window->glfw.GetFramebufferSize(window->handle, &across, &down);
+    window->glfw.GetWindowContentScale(window->handle, &x, &y);
+    return height > 0 && down > 0 && y > 0 ? (double)y * height / down : 1;
+}
+
 void window_resize(struct window *window, uint32_t width, uint32_t height) {
-    int across = (int)width, down = (int)height;
+    const double units = units_per_point(window);
+    int across = (int)(width * units + 0.5), down = (int)(height * units + 0.5);
     fit(&window->glfw, &across, &down);
     window->glfw.SetWindowSize(window->handle, across, down);
 }
@@ -216,6 +233,8 @@ static bool create(struct window *window, const char *title, int width, int heig
     const struct glfw *glfw = &window->glfw;
     fit(glfw, &width, &height);
     glfw->WindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    // Until it has the size that it gets by the display's scale.
+    glfw->WindowHint(GLFW_VISIBLE, GLFW_FALSE);
     window->handle = glfw->CreateWindow(width, height, title, NULL, NULL);
     if (!window->handle)
         return false;
@@ -227,6 +246,8 @@ static bool create(struct window *window, const char *title, int width, int heig
     glfw->SetScrollCallback(window->handle, on_wheel);
     glfw->SetWindowFocusCallback(window->handle, on_focus);
     glfw->SetWindowCloseCallback(window->handle, on_close);
+    window_resize(window, (uint32_t)width, (uint32_t)height);
+    glfw->ShowWindow(window->handle);
     return true;
 }
 
@@ -287,8 +308,11 @@ void window_size(struct window *window, uint32_t *width, uint32_t *height) {
 
 uint32_t window_text_scale(struct window *window) {
     float x = 1, y = 1;
+    uint32_t width, height;
     window->glfw.GetWindowContentScale(window->handle, &x, &y);
-    return y > 1.5f ? (uint32_t)(y + 0.5f) : 1;
+    window_size(window, &width, &height);
+    const uint32_t scale = y < 1.5f ? 1 : (uint32_t)(y + 0.5f);
+    return width < ROOMY_WIDTH * scale ? scale : 2 * scale;
 }
 
 void window_set_title(struct window *window, const char *title) {

@@ -17,6 +17,7 @@ enum {
 
 struct window;
 
+// Width and height as window_resize has them.
 struct window *window_open(const char *title, uint32_t width, uint32_t height,
                            char error[WINDOW_ERROR_BYTES]);
 void window_close(struct window *window);
@@ -26,7 +27,8 @@ const char *const *window_extensions(struct window *window, uint32_t *count);
 bool window_make_surface(void *window, void *instance, void *surface);
 // Both 0 while it is minimised.
 void window_size(struct window *window, uint32_t *width, uint32_t *height);
-// Asks for another size; it comes when the display grants it.
+// Asks for another size, in points: where the display's scale is 2, a point is two pixels wide. At most as
+// large as the display; it comes when the display grants it.
 void window_resize(struct window *window, uint32_t width, uint32_t height);
 // Pixels of a dot of text.
 uint32_t window_text_scale(struct window *window);

@@ -253,6 +253,8 @@ enum live_state live_load(struct live *live) {
     const struct live_loaded loaded = live_read(live, &live->wish.session);
     if (loaded.session)
         watch_all(live, loaded.session);
+    if (live->wish.is_read)
+        live->wish.is_read(live->wish.context);
     const enum live_state state = live_show(live, loaded, live->wish.camera);
     live->change.seconds = clock_seconds() - start;
     return state;

@@ -25,6 +25,9 @@ struct live_wish {
     // Of many pictures, each has the bytes that a program that has just started would give it: the origin is
     // chosen for each, and the precision, unless live->follows. No file is watched.
     bool alone;
+    // Called by live_load when all files are read, before anything is made of them. NULL: nothing.
+    void (*is_read)(void *context);
+    void *context;
 };
 
 enum live_state {

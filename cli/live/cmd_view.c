@@ -53,16 +53,18 @@ static void loaded(void *context, struct live *live, bool is_broken) {
     strbuf_finish(&text);
 }
 
-static void write_picture(void *context, const struct image *image, struct image_display display,
+static bool write_picture(void *context, const struct image *image, struct image_display display,
                           uint32_t samples) {
     struct viewing *v = context;
     struct strbuf file;
     strbuf_init(&file);
     image_encode(image, v->format, display, &file);
-    if (cli_write_made(v->cli, v->output, &file, "the picture") == CLI_OK && !v->cli->options.quiet)
+    const bool done = cli_write_made(v->cli, v->output, &file, "the picture") == CLI_OK;
+    if (done && !v->cli->options.quiet)
         fprintf(stderr, "glint: wrote %s, %u x %u, %u sample%s\n", v->output, image->width, image->height,
                 samples, samples == 1 ? "" : "s");
     strbuf_finish(&file);
+    return done;
 }
 
 static bool is_over(void *context) {

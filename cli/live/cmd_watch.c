@@ -136,8 +136,8 @@ static int tell(struct watching *w, const struct live_report *report) {
     struct strbuf text;
     int status = CLI_OK;
     if (!report->is_broken && !w->cli->options.quiet)
-        fprintf(stderr, "glint: wrote %s, %u x %u, %.0f ms after the change\n", w->output, report->width,
-                report->height, 1e3 * report->total_seconds);
+        fprintf(stderr, "glint: wrote %s, %u x %u, %.0f ms after the %s\n", w->output, report->width,
+                report->height, 1e3 * report->total_seconds, w->live.loads == 1 ? "start" : "change");
     if (!stats)
         return CLI_OK;
     strbuf_init(&text);

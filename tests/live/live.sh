@@ -65,11 +65,12 @@ ends() {
     trap - EXIT
 }
 
-# display: begins a display in memory, of 640x480 points, as $server; DISPLAY names it. false: it did not begin.
+# display: begins a display in memory, of 640x480 points, as $server; DISPLAY names it. It keeps what is set for it when nobody
+# uses it. false: it did not begin.
 display() {
     unset WAYLAND_DISPLAY
     : >number.txt
-    Xvfb -displayfd 3 -screen 0 640x480x24 -nolisten tcp 3>number.txt >xvfb.txt 2>&1 &
+    Xvfb -noreset -displayfd 3 -screen 0 640x480x24 -nolisten tcp 3>number.txt >xvfb.txt 2>&1 &
     server=$!
     for _ in $(seq 600); do
         [ -s number.txt ] && break

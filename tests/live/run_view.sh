@@ -99,10 +99,43 @@ as_rendered() {
     same "$name" new.pfm out.pfm
 }
 
+# margin FILE: how many rows of a picture of the window are above its text, whose dots are the brightest of it.
+margin() {
+    wide=$(sed -n '2s/ .*//p' "$1")
+    head=$(head -3 "$1" | wc -c)
+    tail -c +$((head + 1)) "$1" | od -An -v -tu1 -w$((3 * wide)) | awk '{ for (i = 1; i <= NF; i += 3) if ($i == 240) { print NR - 1; exit } }'
+}
+
+# same_text NAME WANTED GOT
+same_text() {
+    if [ "$2" = "$3" ]; then pass "$1"; else fail "$1: $3, wanted $2"; fi
+}
+
 # other NAME FILE FILE
 other() {
     if cmp -s "$2" "$3"; then fail "$1"; else pass "$1"; fi
 }
+
+# While it is loaded a bar grows along the lower edge: seen in part before the first picture. The machine may be done
+# before anybody looks: then once more.
+awk 'BEGIN { n = 150
+    for (y = 0; y <= n; y++) for (x = 0; x <= n; x++) printf "v %g %g %g\n", x / n - 0.5, sin(x) / n, y / n - 0.5
+    for (y = 0; y < n; y++) for (x = 1; x <= n; x++) { i = y * (n + 1) + x; printf "f %d %d %d %d\n", i, i + 1, i + n + 2, i + n + 1 } }' >meshes/sea.obj
+sed 's/face.obj/sea.obj/' scene.yaml >slow.yaml
+for _ in 1 2 3 4 5; do
+    begin "$glint" view slow.yaml -q --size 200x150
+    trap 'kill "$process" "$server" 2>/dev/null' EXIT
+    "$events" slow.yaml await color 1 148 3f8fe0 bar.ppm
+    seen_bar=$?
+    kill "$process"
+    wait "$process"
+    [ $seen_bar -eq 0 ] && break
+done
+if [ $seen_bar -eq 0 ]; then pass 'a bar while it loads'; else fail 'a bar while it loads'; fi
+# The last pixel of its row, and one in the middle of the window: the picture is not there yet.
+at_pixel() { tail -c +$(($(head -3 bar.ppm | wc -c) + 1 + 3 * ($2 * 200 + $1))) bar.ppm | head -c 3 | od -An -tx1 | tr -d ' '; }
+same_text 'which is not full' 181818 "$(at_pixel 199 148)"
+same_text 'before there is a picture' 303030 "$(at_pixel 100 75)"
 
 begin "$glint" view scene.yaml -o out.pfm --stats=json
 trap 'kill "$process" "$server" 2>/dev/null' EXIT
@@ -110,6 +143,7 @@ does await
 loaded 'a window' '"report": "glint view"' '"load": 1, "broken": false'
 as_rendered 'the picture of glint render'
 does shot home.ppm
+points=$(margin home.ppm)
 grep -aq '^96 72' home.ppm || fail 'in its size'
 other 'which is in the window' home.ppm /dev/null
 
@@ -167,6 +201,11 @@ same 'as it was' slow.ppm now.ppm
 cp now.ppm last.ppm
 changes 'H hides the text' last.ppm key h
 still last.ppm
+changes 'F1 shows the keys' last.ppm key F1
+cp last.ppm plain.ppm
+does key F1
+still last.ppm
+same 'and hides them' plain.ppm last.ppm
 for mode in normals depth cost error colour; do
     changes "Tab shows $mode" last.ppm key Tab
     still last.ppm
@@ -215,5 +254,31 @@ wait "$process" || fail 'Escape ends it'
 begin "$glint" view scene.yaml -q
 does await
 ends 'SIGTERM ends it' TERM 0
+
+# At 192 dpi a point is two pixels wide: of the window, of the text in it, and where a click goes.
+"$events" none dpi 192 || fail 'another dpi'
+begin "$glint" view scene.yaml -o out.pfm --stats=json
+trap 'kill "$process" "$server" 2>/dev/null' EXIT
+does await
+loaded 'at 192 dpi' '"broken": false'
+writes=0
+as_rendered 'a window of twice the size' --size 192x144
+still now.ppm
+grep -aq '^192 144' now.ppm || fail 'which its picture fills'
+pixels=$(margin now.ppm)
+same_text 'text in its place' 4 "$points"
+same_text 'and twice as large' 8 "$pixels"
+does move 28 72 press 1 release 1 sleep 100 move 56 72 press 1 release 1
+for _ in $(seq 600); do
+    grep -q "scene.yaml:10:.*: sphere 'ball'" loads.json && break
+    sleep 0.1
+done
+if grep -v '^{' loads.json | head -2 | tr '\n' ' ' | grep -q "^the background scene.yaml:10:.*: sphere 'ball'"; then
+    pass 'a click is where it is seen'
+else
+    fail 'a click is where it is seen'
+    cat loads.json
+fi
+ends 'SIGTERM ends it, too' TERM 0
 kill "$server"
 exit $failed

@@ -7,9 +7,13 @@
 //   size W H          what a user does at the window's corner
 //   hide, show        what minimising does without a window manager
 //   close             what a user does with the window's button
+//   dpi N             of the display, as its users set it, for windows that are opened from then on
 //   sleep MS
 //   shot FILE         the window as PPM
+//   color X Y RRGGBB FILE  the same, as soon as that pixel has that colour; exit 1 if it does not get it
+//   within 5 s
 // Exit: 0; 1 where the window is not there; 2 for a mistake.
+#include <X11/Xatom.h>
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
 #include <X11/extensions/XTest.h>
@@ -48,7 +52,7 @@ static Window find(Window at, const char *title) {
 
 static int await(const char *title) {
     enum {
-        TRIES = 600
+        TRIES = 6000
     };
     for (int i = 0; i < TRIES; i++) {
         XWindowAttributes attributes;
@@ -56,7 +60,7 @@ static int await(const char *title) {
         if (window && XGetWindowAttributes(display, window, &attributes) &&
             attributes.map_state == IsViewable)
             return 0;
-        nap(100);
+        nap(10);
     }
     fprintf(stderr, "x_events: no window '%s'\n", title);
     return 1;
@@ -73,6 +77,13 @@ static void move(int x, int y) {
     XTestFakeMotionEvent(display, -1, root_x, root_y, CurrentTime);
 }
 
+static void set_dpi(const char *dpi) {
+    char text[64];
+    snprintf(text, sizeof text, "Xft.dpi:\t%s\n", dpi);
+    XChangeProperty(display, DefaultRootWindow(display), XA_RESOURCE_MANAGER, XA_STRING, 8, PropModeReplace,
+                    (const unsigned char *)text, (int)strlen(text));
+}
+
 static void close_window(void) {
     XEvent event = {0};
     event.xclient.type = ClientMessage;
@@ -83,17 +94,20 @@ static void close_window(void) {
     XSendEvent(display, window, False, NoEventMask, &event);
 }
 
-static int shot(const char *path) {
+static XImage *look(void) {
     XWindowAttributes attributes;
-    FILE *file = fopen(path, "wb");
     XGetWindowAttributes(display, window, &attributes);
-    XImage *image = XGetImage(display, window, 0, 0, (unsigned)attributes.width, (unsigned)attributes.height,
-                              AllPlanes, ZPixmap);
+    return XGetImage(display, window, 0, 0, (unsigned)attributes.width, (unsigned)attributes.height,
+                     AllPlanes, ZPixmap);
+}
+
+static int write_image(XImage *image, const char *path) {
+    FILE *file = fopen(path, "wb");
     if (!file || !image)
         return 1;
-    fprintf(file, "P6\n%d %d\n255\n", attributes.width, attributes.height);
-    for (int y = 0; y < attributes.height; y++)
-        for (int x = 0; x < attributes.width; x++) {
+    fprintf(file, "P6\n%d %d\n255\n", image->width, image->height);
+    for (int y = 0; y < image->height; y++)
+        for (int x = 0; x < image->width; x++) {
             const unsigned long pixel = XGetPixel(image, x, y);
             fputc((int)(pixel >> 16 & 255), file);
             fputc((int)(pixel >> 8 & 255), file);
@@ -103,6 +117,21 @@ static int shot(const char *path) {
     return fclose(file) != 0;
 }
 
+static int shot_of_color(int x, int y, unsigned long color, const char *path) {
+    enum {
+        TRIES = 1000
+    };
+    for (int i = 0; i < TRIES; i++) {
+        XImage *image = look();
+        if (image && x < image->width && y < image->height && (XGetPixel(image, x, y) & 0xffffff) == color)
+            return write_image(image, path);
+        if (image)
+            XDestroyImage(image);
+        nap(5);
+    }
+    return 1;
+}
+
 // One word with its arguments; returns how many words it took, 0 for a mistake.
 static int run(char **words, int left, const char *title) {
     static const struct {
@@ -110,7 +139,7 @@ static int run(char **words, int left, const char *title) {
         int arguments;
     } known[] = {{"await", 0}, {"key", 1},     {"down", 1}, {"up", 1},   {"move", 2},
                  {"press", 1}, {"release", 1}, {"size", 2}, {"hide", 0}, {"show", 0},
-                 {"close", 0}, {"sleep", 1},   {"shot", 1}};
+                 {"close", 0}, {"sleep", 1},   {"shot", 1}, {"dpi", 1},  {"color", 4}};
     int is = -1;
     for (int i = 0; i < (int)(sizeof known / sizeof *known); i++)
         if (strcmp(words[0], known[i].name) == 0)
@@ -136,10 +165,15 @@ static int run(char **words, int left, const char *title) {
         XMapWindow(display, window);
     if (strcmp(word, "close") == 0)
         close_window();
+    if (strcmp(word, "dpi") == 0)
+        set_dpi(one);
     if (strcmp(word, "sleep") == 0)
         nap(number(one));
     XSync(display, False);
-    if (strcmp(word, "shot") == 0 && shot(one))
+    if (strcmp(word, "shot") == 0 && write_image(look(), one))
+        exit(1);
+    if (strcmp(word, "color") == 0 &&
+        shot_of_color(number(one), number(words[2]), strtoul(words[3], NULL, 16), words[4]))
         exit(1);
     return 1 + known[is].arguments;
 }
@@ -152,7 +186,9 @@ int main(int argc, char **argv) {
     }
     window = find(DefaultRootWindow(display), argv[1]);
     for (int at = 2; at < argc;) {
-        const int taken = strcmp(argv[at], "await") != 0 && !window ? 0 : run(argv + at, argc - at, argv[1]);
+        const int taken = !window && strcmp(argv[at], "await") != 0 && strcmp(argv[at], "dpi") != 0
+                              ? 0
+                              : run(argv + at, argc - at, argv[1]);
         if (!taken) {
             fprintf(stderr, "x_events: not understood, or no window: %s\n", argv[at]);
             return window ? 2 : 1;

@@ -171,12 +171,60 @@ static void there_is_a_processor(void **state) {
     assert_in_range(parallel_processors(), 1, 1024);
 }
 
+// ---- who looks on
+
+struct watching {
+    size_t looks, last, wanted; // wanted: count of the loop that is shown
+    bool wrong, loops;
+    pthread_t thread;
+};
+
+static void do_nothing(void *context, size_t begin, size_t end) {
+    (void)context, (void)begin, (void)end;
+}
+
+static void see(void *context, size_t done, size_t count) {
+    struct watching *w = context;
+    w->looks++;
+    w->wrong = w->wrong || count != w->wanted || done < w->last || done > count || done == 0 ||
+               !pthread_equal(pthread_self(), w->thread);
+    w->last = done;
+    if (w->loops)
+        parallel_for(100, 10, do_nothing, NULL);
+}
+
+static void loop_inside(void *context, size_t begin, size_t end) {
+    (void)begin, (void)end;
+    parallel_for(20, 5, do_nothing, context);
+}
+
+static void somebody_looks_on(void **state) {
+    (void)state;
+    struct watching w = {.wanted = 1000, .thread = pthread_self(), .loops = true};
+    const struct parallel_looker looker = {see, &w};
+    parallel_look(&looker);
+    parallel_for(1000, 10, do_nothing, NULL);
+    assert_true(w.looks <= 100 && !w.wrong);
+    // Of loops in loops, the outer one is shown, unless it is of one piece.
+    w = (struct watching){.wanted = 8, .thread = w.thread};
+    parallel_for(8, 1, loop_inside, NULL);
+    assert_false(w.wrong);
+    w = (struct watching){.wanted = 20, .thread = w.thread};
+    parallel_for(1, 1, loop_inside, NULL);
+    parallel_look(NULL);
+    // The piece of the outer loop, when it is over, has only its own loop to show.
+    assert_true(w.looks > 0);
+    const size_t looks = w.looks;
+    parallel_for(1000, 10, do_nothing, NULL);
+    assert_int_equal(looks, w.looks);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(covers_each_index_once),        cmocka_unit_test(a_huge_piece_does_not_overflow),
         cmocka_unit_test(threads_do_not_multiply),       cmocka_unit_test(loops_may_nest),
         cmocka_unit_test(there_is_a_processor),          cmocka_unit_test(a_task_goes_on_beside),
-        cmocka_unit_test(a_task_waits_on_one_processor),
+        cmocka_unit_test(a_task_waits_on_one_processor), cmocka_unit_test(somebody_looks_on),
     };
     return cmocka_run_group_tests_name("parallel", tests, NULL, NULL);
 }

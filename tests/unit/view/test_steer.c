@@ -165,7 +165,7 @@ static void test_actions(void **state) {
     } rows[] = {{STEER_ESCAPE, STEER_QUIT, 0}, {STEER_TAB, STEER_NEXT, 0}, {'R', STEER_BACK, 0},
                 {'P', STEER_WRITE, 0},         {'C', STEER_PRINT, 0},      {'H', STEER_OVERLAY, 0},
                 {'1', STEER_CAMERA, 0},        {'9', STEER_CAMERA, 8},     {'0', STEER_CAMERA, 9},
-                {'X', STEER_NOTHING, 0},       {0, STEER_NOTHING, 0}};
+                {'X', STEER_NOTHING, 0},       {0, STEER_NOTHING, 0},      {STEER_F1, STEER_KEYS, 0}};
     struct steer steer = make();
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         const struct steer_action action = key(&steer, rows[i].key, true);
