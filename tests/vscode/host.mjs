@@ -46,7 +46,7 @@ try {
     const lines = (await page.value('window.automation ? automation.lines : []').catch(() => [])).slice(seen);
     seen += lines.length;
     for (const line of lines) {
-      if (/^(ok|FAIL) /.test(line)) said(line);
+      if (/^(ok|FAIL|time) /.test(line)) said(line);
       else if (process.env.VSCODE_LOG) said(`  ${line}`);
       if (line.startsWith('picture ')) picture = line.slice(8);
       if (line === 'look') {

@@ -57,9 +57,11 @@ const tests = {
 
   async 'a fix'() {
     const document = await open('wrong.glint.yaml');
-    const actions = await run('vscode.executeCodeActionProvider', document.uri, found(document)[0].range);
-    const fix = actions.find(({ kind }) => kind && kind.value === 'quickfix');
-    if (!fix) throw new Error(`no fix: ${JSON.stringify(actions)}`);
+    // The editor drops an answer while another extension registers what it can do, as some do at the start.
+    const fix = await until('a fix', async () => {
+      const actions = await run('vscode.executeCodeActionProvider', document.uri, found(document)[0].range);
+      return actions.find(({ kind }) => kind && kind.value === 'quickfix');
+    });
     await vscode.workspace.applyEdit(fix.edit);
     has(document.lineAt(5).text, '{center: [0, 0, 0]', 'the text');
     await until('no finding', () => found(document).length === 0);
@@ -125,6 +127,27 @@ const tests = {
     await until('the finding again', () => codes(document).join() === 'E601');
   },
 
+  async 'a change to the finding, in time'() {
+    const document = await open('wrong.glint.yaml');
+    const times = [];
+    for (let i = 0; i < 7; i++) {
+      const began = performance.now();
+      const told = new Promise((resolve) => {
+        const listener = vscode.languages.onDidChangeDiagnostics(() => {
+          if (found(document).length === (i % 2 ? 0 : 1)) resolve(listener.dispose());
+        });
+      });
+      if (i % 2) await replace(document, 'radiux', 'radius');
+      else await replace(document, 'radius', 'radiux');
+      await told;
+      times.push(performance.now() - began);
+    }
+    await replace(document, 'radiux', 'radius');
+    times.sort((a, b) => a - b);
+    console.log(`time from a change to the finding ${times[3].toFixed(0)} ms, at most ${times[6].toFixed(0)}`);
+    if (times[3] > 20 * 150) throw new Error('that is too late');
+  },
+
   async 'XML'() {
     const document = await open('wrong.glint.xml');
     const finding = (await until('a finding', () => found(document).length && found(document)))[0];
@@ -139,14 +162,22 @@ const tests = {
 
   async 'the picture beside the text'() {
     const document = await open('picture.glint.yaml');
+    const began = performance.now();
     await run('glint.showPreview');
     const { previews } = vscode.extensions.getExtension('glint.glint').exports;
     const shown = (test) => until('a picture', () => previews.shown(document.uri) && test(previews.shown(document.uri)) && previews.shown(document.uri));
     equal(await shown(({ whole }) => whole), { width: 320, height: 200, part: 1, whole: true }, 'what the view shows');
+    console.log(`time to the whole picture ${(performance.now() - began).toFixed(0)} ms`);
     const digest = new Uint8Array(await crypto.subtle.digest('SHA-256', previews.whole(document.uri)));
     console.log(`picture ${[...digest].map((byte) => byte.toString(16).padStart(2, '0')).join('')}`);
     await replace(document, 'width: 320', 'width: 240');
     await shown(({ whole, width }) => whole && width === 240);
+    // A mesh in a folder that is not there yet.
+    await replace(document, 'cub, mesh: meshes/fox.obj', 'cub, mesh: more/cub.obj');
+    await shown(({ failed }) => failed);
+    await vscode.workspace.fs.writeFile(place('more/cub.obj'), await vscode.workspace.fs.readFile(place('meshes/fox.obj')));
+    await shown(({ whole }) => whole);
+    await until('no finding', () => found(document).length === 0);
     await replace(document, 'width: 240', 'width: 240, widht: 1');
     has((await shown(({ failed }) => failed)).failed, 'errors', 'the view says');
     await replace(document, ', widht: 1', '');
