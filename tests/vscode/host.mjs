@@ -15,7 +15,7 @@ const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathna
 // Tests must be below the extension.
 const under = path.join(work, 'extension');
 fs.cpSync(extension, under, { recursive: true });
-fs.copyFileSync(path.join(here, 'suite.js'), path.join(under, 'suite.js'));
+fs.writeFileSync(path.join(under, 'suite.js'), fs.readFileSync(path.join(here, 'suite.js'), 'utf8').replace('GLINT_SIDE', process.env.GLINT_SIDE));
 
 const free = await new Promise((resolve) => {
   const server = net.createServer().listen(0, '127.0.0.1', () => {

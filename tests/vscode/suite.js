@@ -2,6 +2,7 @@
 'use strict';
 const vscode = require('vscode');
 
+const SIDE = 'GLINT_SIDE'; // of the native picture, put here by host.mjs
 const WAIT_MS = 60000; // a busy machine has its time
 const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
@@ -45,6 +46,11 @@ async function replace(document, text, by) {
   if (at < 0) throw new Error(`'${text}' is not in ${document.uri}`);
   edit.replace(document.uri, new vscode.Range(document.positionAt(at), document.positionAt(at + text.length)), by);
   if (!(await vscode.workspace.applyEdit(edit))) throw new Error('the text does not change');
+}
+
+async function hash(bytes) {
+  const digest = new Uint8Array(await crypto.subtle.digest('SHA-256', bytes));
+  return [...digest].map((byte) => byte.toString(16).padStart(2, '0')).join('');
 }
 
 const tests = {
@@ -168,8 +174,7 @@ const tests = {
     const shown = (test) => until('a picture', () => previews.shown(document.uri) && test(previews.shown(document.uri)) && previews.shown(document.uri));
     equal(await shown(({ whole }) => whole), { width: 320, height: 200, part: 1, whole: true }, 'what the view shows');
     console.log(`time to the whole picture ${(performance.now() - began).toFixed(0)} ms`);
-    const digest = new Uint8Array(await crypto.subtle.digest('SHA-256', previews.whole(document.uri)));
-    console.log(`picture ${[...digest].map((byte) => byte.toString(16).padStart(2, '0')).join('')}`);
+    console.log(`picture ${await hash(previews.whole(document.uri))}`);
     await replace(document, 'width: 320', 'width: 240');
     await shown(({ whole, width }) => whole && width === 240);
     // A mesh in a folder that is not there yet.
@@ -182,6 +187,19 @@ const tests = {
     has((await shown(({ failed }) => failed)).failed, 'errors', 'the view says');
     await replace(document, ', widht: 1', '');
     await shown(({ whole }) => whole);
+  },
+
+  async 'the picture by another camera, of XML'() {
+    const document = await open('cameras.glint.xml');
+    await run('glint.showPreview');
+    const { previews } = vscode.extensions.getExtension('glint.glint').exports;
+    await until('a picture', () => previews.whole(document.uri));
+    previews.open.get(document.uri.toString()).take({ camera: 'side' }); // as its view says it
+    await until('another', async () => (await hash(previews.whole(document.uri) || new Uint8Array())) === SIDE);
+    await run('workbench.action.closeActiveEditor');
+    await run('workbench.action.focusSecondEditorGroup');
+    await run('workbench.action.closeActiveEditor');
+    await until('the end', () => !previews.open.has(document.uri.toString()));
   },
 
   // For the one who looks at the pictures of this test.
