@@ -27,7 +27,7 @@ const folder = () => vscode.workspace.workspaceFolders[0].uri;
 const place = (name) => vscode.Uri.joinPath(folder(), name);
 const open = async (name) => {
   const document = await vscode.workspace.openTextDocument(place(name));
-  await vscode.window.showTextDocument(document);
+  await vscode.window.showTextDocument(document, vscode.ViewColumn.One);
   return document;
 };
 const found = (document) => vscode.languages.getDiagnostics(document.uri);
@@ -205,6 +205,7 @@ const tests = {
   // For the one who looks at the pictures of this test.
   async 'as it looks'() {
     const document = await open('picture.glint.yaml');
+    await run('glint.showPreview'); // it is there: it comes to the front
     await replace(document, 'camera', 'camra');
     await until('a finding', () => found(document).length > 0);
     await sleep(1500);
