@@ -15,7 +15,7 @@ const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathna
 // Tests must be below the extension.
 const under = path.join(work, 'extension');
 fs.cpSync(extension, under, { recursive: true });
-fs.copyFileSync(path.join(here, 'suite.js'), path.join(under, 'suite.js'));
+fs.writeFileSync(path.join(under, 'suite.js'), fs.readFileSync(path.join(here, 'suite.js'), 'utf8').replace('GLINT_SIDE', process.env.GLINT_SIDE));
 
 const free = await new Promise((resolve) => {
   const server = net.createServer().listen(0, '127.0.0.1', () => {
@@ -46,7 +46,7 @@ try {
     const lines = (await page.value('window.automation ? automation.lines : []').catch(() => [])).slice(seen);
     seen += lines.length;
     for (const line of lines) {
-      if (/^(ok|FAIL) /.test(line)) said(line);
+      if (/^(ok|FAIL|time) /.test(line)) said(line);
       else if (process.env.VSCODE_LOG) said(`  ${line}`);
       if (line.startsWith('picture ')) picture = line.slice(8);
       if (line === 'look') {

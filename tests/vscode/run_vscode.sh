@@ -36,6 +36,16 @@ fi
 mkdir -p scenes/meshes
 cp "$source"/scenes/meshes/fox.* scenes/meshes
 sed 's,\.\./meshes,meshes,' "$source/scenes/elements/models.glint.yaml" >scenes/picture.glint.yaml
+cat >scenes/cameras.glint.xml <<'END'
+<Scene glint="1">
+  <Image width="160" height="120" samples="4"/>
+  <Camera name="front"><Position x="0" y="0" z="5"/><LookAt x="0" y="0" z="0"/></Camera>
+  <Camera name="side"><Position x="5" y="0" z="0"/><LookAt x="0" y="0" z="0"/></Camera>
+  <Light><Position x="5" y="5" z="5"/></Light>
+  <Sphere radius="0.5"><Center x="0" y="0" z="0"/></Sphere>
+  <Sphere radius="0.5"><Center x="0" y="1" z="1"/></Sphere>
+</Scene>
+END
 head='glint: 1
 camera: {position: [0, 0, 5], look_at: [0, 0, 0]}
 lights: [{position: [5, 5, 5]}]'
@@ -62,6 +72,8 @@ cat >scenes/wrong.glint.xml <<'END'
 END
 printf 'name: [1, 2\n' >scenes/other.yaml
 (cd scenes && "$glint" render picture.glint.yaml --device reference --as-file --no-cache --quiet -o "$work/native.png") || fail "the native picture"
+(cd scenes && "$glint" render cameras.glint.xml --camera side --device reference --as-file --no-cache --quiet -o "$work/side.png") || fail "the native picture"
 GLINT_PICTURE=$(sha256sum <native.png | cut -d' ' -f1)
-export GLINT_PICTURE
+GLINT_SIDE=$(sha256sum <side.png | cut -d' ' -f1)
+export GLINT_PICTURE GLINT_SIDE
 exec node "$source/tests/vscode/host.mjs" "$extension" "$GLINT_VSCODE_MODULES" "$work"

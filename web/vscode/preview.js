@@ -31,7 +31,7 @@ class Preview {
 <body><img id="picture" alt="The picture of ${name.replace(/[&<"]/g, (c) => `&#${c.charCodeAt(0)};`)}" hidden>
 <p><label id="cameras" hidden>Camera <select id="camera"></select></label> <span id="state" role="status">Drawing</span></p>
 <script src="${at('view.js')}"></script></body></html>`;
-    this.glint = new EditorGlint({ module, address, texts: () => this.texts(), log, folder: path.slice(0, end) || '/' });
+    this.glint = new EditorGlint({ module, address, texts: () => this.texts(), log, folder: path.slice(0, end) || '/', keeps: true });
     this.picture = new EditorPicture({ glint: this.glint, canvas: null, told: (what) => this.told(what), seen: (scene) => this.seen(scene) });
     this.picture.post = (message) => webview.postMessage(message);
     this.shown = null; // what the view says that it shows: {width, height, whole}
@@ -42,6 +42,11 @@ class Preview {
       }),
       webview.onDidReceiveMessage((message) => this.take(message)),
       vscode.workspace.onDidChangeTextDocument((event) => this.changed(event.document)),
+      // What was not saved is gone.
+      vscode.workspace.onDidCloseTextDocument((document) => {
+        this.glint.put({}, [pathOf(document.uri)]);
+        this.draw();
+      }),
     ];
     const watcher = vscode.workspace.createFileSystemWatcher('**/*');
     const touched = (uri) => this.touched(uri);
@@ -64,7 +69,7 @@ class Preview {
   }
   touched(uri) {
     const path = pathOf(uri);
-    if (this.texts().some(([open]) => open === path)) return; // its text is known
+    if (!this.glint.knows(path) || this.texts().some(([open]) => open === path)) return; // of those that are open, the text is known
     this.glint.put({}, [path]);
     this.draw();
   }

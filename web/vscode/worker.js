@@ -122,6 +122,12 @@ function forget(paths) {
       remove(path);
       known.delete(path);
       listed.delete(parentOf(path));
+      // A folder that was not there may have come with it.
+      for (let above = parentOf(path); above !== '/'; above = parentOf(above)) {
+        if (glint.FS.analyzePath(above).exists) break;
+        known.delete(above);
+        listed.delete(parentOf(above));
+      }
       // Where a folder comes or goes, so does all below it.
       for (const one of [...known].filter((below) => below.startsWith(`${path}/`))) {
         remove(one);
@@ -186,10 +192,27 @@ const pathOf = (uri) => decodeURIComponent(uri.replace(/^file:\/\//, ''));
 const tell = (method, params) => take(JSON.stringify({ jsonrpc: '2.0', method, params }));
 const take = (text) => glint.ccall('web_lsp_take', 'number', ['number', 'string'], [server, text]);
 
+// The offset of a place of the protocol, whose columns count as JavaScript does.
+function offsetOf(text, { line, character }) {
+  const ends = /\r\n|\r|\n/g;
+  let begin = 0;
+  for (let i = 0; i < line; i++) {
+    if (!ends.exec(text)) return text.length;
+    begin = ends.lastIndex;
+  }
+  const rest = ends.exec(text);
+  return Math.min(begin + character, rest ? rest.index : text.length);
+}
+// The whole text after changes: it is needed to open a document again.
+function changedText(before, changes) {
+  return changes.reduce((text, { range, text: by }) => {
+    if (!range) return by;
+    return text.slice(0, offsetOf(text, range.start)) + by + text.slice(offsetOf(text, range.end));
+  }, before);
+}
+
 function said(text) {
   const message = JSON.parse(text);
-  // All of a text comes with each change: it is needed to open a document again.
-  if (message.result?.capabilities) message.result.capabilities.textDocumentSync.change = 1;
   if (message.method === 'textDocument/publishDiagnostics') held.set(message.params.uri, message);
   else postMessage({ lsp: message });
 }
@@ -242,7 +265,7 @@ function serve(message) {
     if (params.textDocument.uri.startsWith('file:')) quietly(() => glint.FS.mkdirTree(parentOf(pathOf(params.textDocument.uri))));
   } else if (method === 'textDocument/didChange') {
     const document = documents.get(params.textDocument.uri);
-    if (document) Object.assign(document, { text: params.contentChanges.at(-1).text, version: params.textDocument.version });
+    if (document) Object.assign(document, { text: changedText(document.text, params.contentChanges), version: params.textDocument.version });
   } else if (method === 'textDocument/didClose') {
     documents.delete(params.textDocument.uri);
   } else if (method === 'workspace/didChangeWatchedFiles') {
