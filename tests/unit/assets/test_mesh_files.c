@@ -475,7 +475,7 @@ static void every_prefix_of_five_files(void **state) {
                                         "ply/big.ply",       "ply/strips.ply",     "stl/binary.stl",
                                         "stl/text.stl",      "stl/two_solids.stl", "stl/capitals.stl",
                                         "stl/colors.stl",    "obj/frame.obj",      "obj/tetrahedron.obj",
-                                        "obj/corners.obj", "obj/relative.obj",   "obj/materials.obj"};
+                                        "obj/corners.obj",   "obj/relative.obj",   "obj/materials.obj"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char path[4096], bytes[4096];
         snprintf(path, sizeof path, "tests/fuzz/seeds/%s", names[i]);
