@@ -30,8 +30,8 @@ struct allows {
         uint32_t source, line;
         bool known, allowed;
     } answers[DIAG_CODE_COUNT]; // the last one for each code: a line may have thousands of findings
-    uint32_t *most;             // of each: the last line that it or one before it in its text applies to
-    struct gap last;            // comments after each other have one content in common
+    uint32_t *outer; // of each: how many come up to the last one before it that applies to its first line
+    struct gap last; // comments after each other have one content in common
 };
 
 static bool at_comment(str text, size_t at, bool is_xml) {
@@ -282,11 +282,13 @@ static void sort(struct allows *allows) {
     struct allow *items = allows->list.items;
     uint32_t count = allows->list.count;
     qsort(items, count, sizeof *items, compare_allows);
-    allows->most = ARENA_ARRAY(&allows->session->arena, uint32_t, count);
+    allows->outer = ARENA_ARRAY(&allows->session->arena, uint32_t, count);
     for (uint32_t i = 0; i < count; i++) {
-        bool goes_on = i > 0 && items[i - 1].comment.source == items[i].comment.source;
-        uint32_t before = goes_on ? allows->most[i - 1] : 0;
-        allows->most[i] = before > items[i].last_line ? before : items[i].last_line;
+        uint32_t at = i;
+        while (at > 0 && (items[at - 1].comment.source != items[i].comment.source ||
+                          items[at - 1].last_line < items[i].first_line))
+            at = allows->outer[at - 1];
+        allows->outer[i] = at;
     }
 }
 
@@ -307,9 +309,9 @@ static uint32_t count_up_to(const struct allows *allows, uint32_t source, uint32
 // Marks the comments that allow the code on a line; false: there is none.
 static bool allows_on(struct allows *allows, enum diag_code code, uint32_t source, uint32_t line) {
     bool found = false;
-    for (uint32_t i = count_up_to(allows, source, line); i > 0; i--) {
+    for (uint32_t i = count_up_to(allows, source, line); i > 0; i = allows->outer[i - 1]) {
         struct allow *allow = &allows->list.items[i - 1];
-        if (allow->comment.source != source || allows->most[i - 1] < line)
+        if (allow->comment.source != source)
             break;
         if (allow->last_line < line ||
             !diag_code_matches(code, source_text(&allows->session->sources, allow->code)))

@@ -278,7 +278,7 @@ void read_gltf(struct asset_file *file, struct arena *scratch, struct polygons *
     struct gltf_document *document = file->document;
     struct reading r = {
         .document = document, .gltf = &document->gltf, .file = file, .scratch = scratch, .out = out};
-    *out = (struct polygons){0};
+    *out = (struct polygons){.is_binary = true}; // faces have numbers, and no lines
     if (!read_all(&r))
         file->errors += file->errors == 0;
 }

@@ -12,6 +12,7 @@ enum {
 };
 
 static void assert_holds_together(const struct mesh *mesh) {
+    assert_true(mesh->is_binary); // a face's line is its number
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
         for (int k = 0; k < 3; k++) {
             const struct mesh_triangle *triangle = &mesh->triangles[t];

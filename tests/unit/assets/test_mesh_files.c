@@ -468,6 +468,28 @@ static void every_prefix_and_every_byte(void **state) {
     }
 }
 
+// Those that fuzzing begins with, five of each format; test_gltf_robust.c has those of glTF.
+static void every_prefix_of_five_files(void **state) {
+    (void)state;
+    static const char *const names[] = {"ply/all_words.ply", "ply/text.ply",       "ply/little.ply",
+                                        "ply/big.ply",       "ply/strips.ply",     "stl/binary.stl",
+                                        "stl/text.stl",      "stl/two_solids.stl", "stl/capitals.stl",
+                                        "stl/colors.stl",    "obj/frame.obj",      "obj/tetrahedron.obj",
+                                        "obj/corners.obj",   "obj/relative.obj",   "obj/materials.obj"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char path[4096], bytes[4096];
+        snprintf(path, sizeof path, "tests/fuzz/seeds/%s", names[i]);
+        FILE *file = fopen(path, "rb");
+        assert_non_null(file);
+        const size_t size = fread(bytes, 1, sizeof bytes, file);
+        assert_int_equal(fclose(file), 0);
+        assert_true(size > 0 && size < sizeof bytes && is_read(names[i] + 4, bytes, size));
+        assert_false(is_read(names[i] + 4, bytes, 0));
+        for (size_t n = 1; n < size; n++)
+            is_read(names[i] + 4, bytes, n);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_form_is_the_same_mesh),
@@ -483,6 +505,7 @@ int main(void) {
         cmocka_unit_test(solids_are_groups),
         cmocka_unit_test(limits_hold),
         cmocka_unit_test(every_prefix_and_every_byte),
+        cmocka_unit_test(every_prefix_of_five_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
