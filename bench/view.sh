@@ -24,13 +24,13 @@ cat green.yaml >scene.yaml
 "$glint" view scene.yaml --size 512x384 -q &
 process=$!
 "$events" scene.yaml await color 5 200 00ff00 shot.ppm
-: >times
+: >spent.txt
 for edit in $(seq "$edits"); do
     sleep 1
     if [ $((edit % 2)) -eq 1 ]; then name=red color=ff0000; else name=green color=00ff00; fi
     cat $name.yaml >scene.yaml
     begun=$(date +%s%N)
     "$events" scene.yaml color 5 200 $color shot.ppm
-    echo $((($(date +%s%N) - begun) / 1000000)) >>times
+    echo $((($(date +%s%N) - begun) / 1000000)) >>spent.txt
 done
-echo "median of $edits: $(sort -g times | sed -n "$(((edits + 1) / 2))p") ms; least $(sort -g times | head -1), most $(sort -g times | tail -1)"
+echo "median of $edits: $(sort -g spent.txt | sed -n "$(((edits + 1) / 2))p") ms; least $(sort -g spent.txt | head -1), most $(sort -g spent.txt | tail -1)"
