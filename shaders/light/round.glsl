@@ -7,6 +7,13 @@ const REAL HALF_PI = 1.57079632679489661923lf;
 const REAL HALF_PI = 1.57079632679489661923;
 #endif
 
+// A divisor. Browsers' compilers make a product with the inverse of one that they know, which is rounded otherwise.
+#ifdef WEBGPU
+#define BY(number) ((number) + float(OPAQUE_ZERO))
+#else
+#define BY(number) (number)
+#endif
+
 // Cosine and sine of an angle in quarter turns: by Taylor's series of what is left of the nearest whole number of them, so
 // that quarter turns are exact. Relative error of what is cut off: 2e-9, or 1e-16 in double precision.
 REAL2 turn_by(REAL quarters) {
@@ -21,16 +28,16 @@ REAL2 turn_by(REAL quarters) {
     sine = 1.0 - z / 110.0 * sine;
     cosine = 1.0 - z / 90.0 * cosine;
 #else
-    REAL sine = 1.0 - z / 110.0, cosine = 1.0 - z / 90.0;
+    REAL sine = 1.0 - z / BY(110.0), cosine = 1.0 - z / BY(90.0);
 #endif
-    sine = 1.0 - z / 72.0 * sine;
-    cosine = 1.0 - z / 56.0 * cosine;
-    sine = 1.0 - z / 42.0 * sine;
-    cosine = 1.0 - z / 30.0 * cosine;
-    sine = 1.0 - z / 20.0 * sine;
-    cosine = 1.0 - z / 12.0 * cosine;
-    sine = r * (1.0 - z / 6.0 * sine);
-    cosine = 1.0 - z / 2.0 * cosine;
+    sine = 1.0 - z / BY(72.0) * sine;
+    cosine = 1.0 - z / BY(56.0) * cosine;
+    sine = 1.0 - z / BY(42.0) * sine;
+    cosine = 1.0 - z / BY(30.0) * cosine;
+    sine = 1.0 - z / BY(20.0) * sine;
+    cosine = 1.0 - z / BY(12.0) * cosine;
+    sine = r * (1.0 - z / BY(6.0) * sine);
+    cosine = 1.0 - z / BY(2.0) * cosine;
     int turns = int(nearest) & 3;
     REAL2 turned = (turns & 1) == 0 ? REAL2(cosine, sine) : REAL2(-sine, cosine);
     return turns >= 2 ? -turned : turned;

@@ -7,8 +7,12 @@ struct sky_spot {
 
 uint sky_number(uint at) {
     uvec4 word = FETCH(lights, frame.sky_table + (at >> 2u));
+#ifdef WEBGPU // SwiftShader's compiler does not end, or dies, where share_at's loop has branches in it
+    return word[at & 3u];
+#else
     uvec2 two = (at & 2u) != 0u ? word.zw : word.xy;
     return (at & 1u) != 0u ? two.y : two.x;
+#endif
 }
 
 // The last of `count` shares, `apart` from each other, that does not begin after `place`.
@@ -16,8 +20,13 @@ uint share_at(uint first, uint count, uint apart, uint place) {
     uint at = 0u, step = 1u << uint(findMSB(count));
     while (step > OPAQUE_ZERO) {
         uint next = at + step;
+#ifdef WEBGPU
+        bool inside = next < count, before = sky_number(first + min(next, count - 1u) * apart) <= place;
+        at = inside && before ? next : at;
+#else
         if (next < count && sky_number(first + min(next, count - 1u) * apart) <= place)
             at = next;
+#endif
         step >>= 1u;
     }
     return at;
