@@ -6,22 +6,11 @@ set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 folder=${1:-$here/build/editors-root}
 rm -rf "$folder"
-mkdir -p "$folder/apt/state" "$folder/apt/lists/partial" "$folder/apt/cache/archives/partial" "$folder/root" "$folder/bin"
+mkdir -p "$folder/root" "$folder/bin"
 cd "$folder"
-folder=$(pwd)
-: >apt/status
-echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] ${GLINT_MIRROR:-http://deb.debian.org/debian} trixie main" >apt/sources
-cat >apt/conf <<END
-APT::Sandbox::User "";
-Dir::State "$folder/apt/state";
-Dir::State::lists "$folder/apt/lists";
-Dir::State::status "$folder/apt/status";
-Dir::Cache "$folder/apt/cache";
-Dir::Etc::sourcelist "$folder/apt/sources";
-Dir::Etc::sourceparts "/dev/null";
-END
-export APT_CONFIG="$folder/apt/conf"
-apt-get update -qq
+suite=trixie
+kind=deb
+. "$here/tools/apt_apart.sh"
 apt-get install -y -qq --download-only --no-install-recommends neovim hx emacs-nox elpa-yaml-mode >apt/log 2>&1 || {
     tail -n 20 apt/log
     exit 1

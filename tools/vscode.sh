@@ -6,40 +6,9 @@
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 folder=${1:-$here/build/vscode}
-libraries=${GLINT_WEB:-$here/build/web-root}
+source=vscode
 modules=${GLINT_VSCODE_MODULES:-$here/build/vscode-root}
-for program in emcc cmake node; do
-    command -v "$program" >/dev/null || {
-        echo "tools/vscode.sh: needs $program" >&2
-        exit 1
-    }
-done
-
-# log COMMAND...: its output only where it fails.
-log() {
-    "$@" >"$here/build/vscode.log" 2>&1 || {
-        tail -n 40 "$here/build/vscode.log" >&2
-        exit 1
-    }
-}
-mkdir -p "$here/build"
-[ -d "$libraries/root" ] || "$here/tools/web.sh" "$libraries"
-cd "$here"
-export GLINT_WEB="$libraries"
-web=${GLINT_WEB_BUILD:-$here/build/web}
-log cmake --preset web -B "$web"
-log cmake --build "$web" --parallel 2 --target npm_package
-if ! cmp -s web/vscode/package-lock.json "$modules/package-lock.json"; then
-    rm -rf "$modules"
-    mkdir -p "$modules"
-    cp web/vscode/package.json "$modules"
-    cp web/vscode/package-lock.json "$modules/lock.tmp"
-    (cd "$modules" && cp lock.tmp package-lock.json && log npm ci --ignore-scripts --no-audit --no-fund) || {
-        rm -rf "$modules"
-        exit 1
-    }
-    rm "$modules/lock.tmp"
-fi
+. "$here/tools/web_parts.sh"
 rm -rf "$folder.new"
 node web/vscode/build.mjs "$folder.new" "$modules" "$web/glint-lint" "$here"
 rm -rf "$folder"

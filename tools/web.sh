@@ -12,23 +12,11 @@ for program in emcc dpkg-source cmake ninja; do
     }
 done
 rm -rf "$folder"
-mkdir -p "$folder/apt/state" "$folder/apt/lists/partial" "$folder/apt/cache/archives/partial" "$folder/sources" "$folder/root"
+mkdir -p "$folder/sources" "$folder/root"
 cd "$folder"
-folder=$(pwd)
-: >apt/status
-mirror=${GLINT_MIRROR:-http://deb.debian.org/debian}
-echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $mirror bookworm main" >apt/sources
-cat >apt/conf <<END
-APT::Sandbox::User "";
-Dir::State "$folder/apt/state";
-Dir::State::lists "$folder/apt/lists";
-Dir::State::status "$folder/apt/status";
-Dir::Cache "$folder/apt/cache";
-Dir::Etc::sourcelist "$folder/apt/sources";
-Dir::Etc::sourceparts "/dev/null";
-END
-export APT_CONFIG="$folder/apt/conf"
-apt-get update -qq
+suite=bookworm
+kind=deb-src
+. "$here/tools/apt_apart.sh"
 (cd sources && apt-get source -qq libyaml expat jansson zlib libpng1.6 libjpeg-turbo >../sources.log 2>&1) || {
     cat sources.log
     exit 1
@@ -92,7 +80,8 @@ zlib
     echo 'everything = off'
     for option in SETJMP USER_MEM USER_LIMITS SET_USER_LIMITS SET_UNKNOWN_CHUNKS HANDLE_AS_UNKNOWN EASY_ACCESS POINTER_INDEXING \
         BENIGN_ERRORS BENIGN_READ_ERRORS CHECK_FOR_INVALID_INDEX FIXED_POINT READ SEQUENTIAL_READ READ_16BIT READ_TRANSFORMS \
-        READ_EXPAND READ_GRAY_TO_RGB READ_STRIP_ALPHA READ_SWAP READ_ANCILLARY_CHUNKS READ_OPT_PLTE READ_tRNS WRITE WRITE_16BIT \
+        READ_EXPAND READ_GRAY_TO_RGB READ_SWAP READ_USER_TRANSFORM USER_TRANSFORM_PTR USER_TRANSFORM_INFO READ_ANCILLARY_CHUNKS \
+        READ_OPT_PLTE READ_tRNS WRITE WRITE_16BIT \
         WRITE_CUSTOMIZE_COMPRESSION WRITE_CUSTOMIZE_ZTXT_COMPRESSION WRITE_ANCILLARY_CHUNKS WRITE_TEXT WRITE_tEXt WRITE_iTXt; do
         echo "option $option on"
     done
