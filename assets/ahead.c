@@ -81,7 +81,10 @@ struct asset_file *ahead_take(struct asset_ahead *ahead, struct store_entry **en
     parallel_wait(&ahead->task);
     *entry = ahead->entry;
     (*entry)->picture_fault = ahead->fault;
+    // As it was before it was decoded, but for what only pixels show.
     (*entry)->picture.pixels = ahead->picture.pixels;
+    (*entry)->picture.ignored = ahead->picture.ignored;
+    (*entry)->picture.clear_pixels = ahead->picture.clear_pixels;
     ahead->picture.pixels = NULL;
     ahead->entry = NULL;
     return &ahead->file;

@@ -321,11 +321,7 @@ struct ir_scene {
     struct ir_spheres spheres;
     struct ir_rectangles rectangles;
     struct ir_models models;
-    struct ir_animation animation; // at its defaults once a frame was taken
-    struct {
-        int32_t frames; // 0: it has none that moves anything
-        double rate;
-    } motion; // what the animation said, also once a frame was taken
+    struct ir_animation animation; // at its defaults once a frame was taken: ir_origin.motion
 };
 
 // Bodies are numbered spheres, rectangles, models, each in file order.

@@ -57,6 +57,10 @@ struct ir_origin {
         span *items;
         uint32_t count, capacity;
     } directives; // comments to glint itself ("glint: allow W401"), file by file
+    struct {
+        int32_t frames; // 0: nothing moves
+        double rate;
+    } motion; // what the animation said, also once a frame was taken
 };
 
 void ir_origin_init(struct ir_origin *origin, struct arena *arena);

@@ -12,10 +12,10 @@ struct batch_motion batch_motion_of(struct cli *cli, const char *scene, const st
     options.set_count = set_count;
     session_load(&session, &options, store);
     motion.is_good = session.sink.errors == 0 && session.scene;
-    if (motion.is_good && session.scene->motion.frames) {
+    if (motion.is_good && session.origin.motion.frames) {
         motion.is_animated = true;
-        motion.frames = session.scene->motion.frames;
-        motion.rate = session.scene->motion.rate;
+        motion.frames = session.origin.motion.frames;
+        motion.rate = session.origin.motion.rate;
     }
     session_finish(&session);
     asset_store_destroy(store);

@@ -171,8 +171,8 @@ void animate_scene(struct loader *loader, struct ir_scene *scene) {
     if (is_good)
         motion_find(&motion);
     if (is_good && animation->tracks.count) {
-        scene->motion.frames = animation->frames;
-        scene->motion.rate = animation->rate;
+        loader->output->origin.motion.frames = animation->frames;
+        loader->output->origin.motion.rate = animation->rate;
     }
     if (is_good && (!has_frame || is_frame_of_file(loader, animation))) {
         for (uint32_t i = 0; i < motion.count; i++)
