@@ -90,16 +90,16 @@ whole 'tasks that were preempted' preempted
 sh killed/job.sh >out.txt 2>&1 || fail "submit: $(cat out.txt)"
 cluster_wait '^2$' sh -c "squeue -h -t R -n glint-farm -o x | wc -l" || fail 'two tasks run'
 job=$(squeue -h -w n2 -o %A)
-# Its daemon, and what runs the task, which has the job in its name a moment after the job runs.
-killed=0
-for _ in $(seq 600); do
-    for process in $(cat "$cluster/slurmd.n2.pid") $(cluster_processes | sed -n 's/ slurmstepd.*//p'); do
-        case $(tr '\0' ' ' <"/proc/$process/cmdline") in
-        *"[$job."* | *'-N n2'*) kill -9 "$process" && killed=$((killed + 1)) ;;
-        esac
+# What runs the task, which has the job in its name a moment after the job runs, and then the daemon, so that neither ends the other.
+step_of() {
+    for process in $(cluster_processes | sed -n 's/ slurmstepd.*//p'); do
+        tr '\0' ' ' <"/proc/$process/cmdline" | grep -qF "[$1." && echo "$process"
     done 2>/dev/null
-    [ "$killed" -lt 2 ] || break
-    sleep 0.1
+}
+cluster_wait . step_of "$job" || fail "job $job has no step"
+killed=0
+for process in $(cat "$cluster/slurmd.n2.pid") $(step_of "$job"); do
+    kill -9 "$process" && killed=$((killed + 1))
 done
 [ "$killed" -ge 2 ] && pass 'a node was killed' || fail "a node was killed: $killed processes of job $job"
 cluster_wait down sinfo -h -n n2 -o %t || fail 'Slurm sees it'
