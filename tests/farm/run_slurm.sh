@@ -74,7 +74,7 @@ nodes=$(cat 'a farm'/log/*.jsonl | sed 's/.*"host": "\([^"]*\)".*/\1/' | sort -u
 expect 'status' 0 '16 of 16 tasks done' - "$glint" farm status 'a farm'
 
 # ---- a task that is preempted goes to the end
-slow='--samples 400'
+slow='--samples 2400'
 "$glint" render scene.yaml $slow -o whole.png -q
 "$glint" farm slurm scene.yaml $slow --tiles 4 --folder 'preempted' -o 'preempted/out.png' -q
 sh preempted/job.sh >out.txt 2>&1 || fail "submit: $(cat out.txt)"
@@ -96,7 +96,11 @@ step_of() {
         tr '\0' ' ' <"/proc/$process/cmdline" | grep -qF "[$1." && echo "$process"
     done 2>/dev/null
 }
-cluster_wait . step_of "$job" || fail "job $job has no step"
+cluster_wait . step_of "$job" || {
+    fail "job $job has no step"
+    squeue -a
+    cluster_processes
+}
 killed=0
 for process in $(cat "$cluster/slurmd.n2.pid") $(step_of "$job"); do
     kill -9 "$process" && killed=$((killed + 1))
