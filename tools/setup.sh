@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs the Debian packages that are missing, and only those: `tools/setup.sh check-only` for building what checks
-# scenes, `tools/setup.sh build` for building and rendering, `tools/setup.sh test` for the tests too. Needs root or sudo
-# only where something is missing. `--list` only prints them.
+# scenes, `tools/setup.sh build` for building and rendering, `tools/setup.sh test` for the tests too, `tools/setup.sh packages NAME...` for
+# those that are named. Needs root or sudo only where something is missing. `--list` only prints them.
 set -eu
 
 check="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libexpat1-dev libjansson-dev libpng-dev zlib1g-dev
@@ -14,8 +14,12 @@ case "${1:-}" in
 check-only) wanted=$check ;;
 build) wanted=$build ;;
 test) wanted="$build $test" ;;
+packages)
+    shift
+    wanted=$*
+    ;;
 *)
-    echo "usage: tools/setup.sh check-only|build|test [--list]" >&2
+    echo "usage: tools/setup.sh check-only|build|test [--list] | packages NAME..." >&2
     exit 2
     ;;
 esac
