@@ -10,14 +10,11 @@ static void write_line(struct strbuf *out, bool is_xml, str address) {
         return;
     }
     bool compact = str_ends_with_nocase(address, ".rnc");
-    bool xsd = str_ends_with_nocase(address, ".xsd");
     strbuf_cstr(out, "<?xml-model href=\"");
     print_xml_text(out, address);
     // (Associating Schemas with XML documents 1.0, W3C and ISO/IEC 19757-11.)
     if (compact)
         strbuf_cstr(out, "\" type=\"application/relax-ng-compact-syntax\"?>");
-    else if (xsd)
-        strbuf_cstr(out, "\" type=\"application/xml\" schematypens=\"http://www.w3.org/2001/XMLSchema\"?>");
     else
         strbuf_cstr(out,
                     "\" type=\"application/xml\" schematypens=\"http://relaxng.org/ns/structure/1.0\"?>");

@@ -14,8 +14,10 @@ struct kind {
 };
 
 static const struct kind kinds[] = {
-    {"json", emit_json_schema}, {"relaxng", emit_relaxng},   {"rnc", emit_relaxng_compact},
-    {"xsd", emit_xml_schema},   {"markdown", emit_markdown},
+    {"json", emit_json_schema},
+    {"relaxng", emit_relaxng},
+    {"rnc", emit_relaxng_compact},
+    {"markdown", emit_markdown},
 };
 enum {
     KIND_COUNT = sizeof kinds / sizeof kinds[0]
@@ -109,9 +111,9 @@ int cmd_schema(struct cli *cli) {
         if (strcmp(wanted, kinds[i].name) == 0)
             return print_kind(cli, &kinds[i]);
     }
-    int status = cli_usage(
-        cli, cli_operand_place(cli, 0),
-        "'%s' is not a kind of schema; write json, relaxng, rnc, xsd, markdown or 'install'", wanted);
+    int status =
+        cli_usage(cli, cli_operand_place(cli, 0),
+                  "'%s' is not a kind of schema; write json, relaxng, rnc, markdown or 'install'", wanted);
     if (nearest_best(&search).len)
         diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
     return status;

@@ -99,10 +99,10 @@ static const struct cli_command commands[] = {
      "is text or json. The exit status is 1 if anything differs.\n\n"
      "  glint diff old.glint.yaml new.glint.xml\n",
      2, 2, cmd_diff},
-    {"schema", "json|relaxng|rnc|xsd|markdown|install FILE...",
+    {"schema", "json|relaxng|rnc|markdown|install FILE...",
      "print the language's schema or reference page, or connect files to it",
      "json: JSON Schema (draft-07) for YAML editors. relaxng, rnc: RELAX NG, in XML and compact syntax,\n"
-     "for XML editors. xsd: XML Schema for editors that do not know RELAX NG, for completion only.\n"
+     "for XML editors.\n"
      "markdown: the reference page. install: adds a line to scene files that tells editors where the\n"
      "schema is, and writes the schema into the same folder (or uses the one at --schema).\n\n"
      "  glint schema install scene.yaml\n",

@@ -15,7 +15,6 @@ void emit_relaxng(struct strbuf *out);
 // RELAX NG in its compact syntax: the same language.
 void emit_relaxng_compact(struct strbuf *out);
 // XML Schema 1.0 for the XML spelling: for completion; it accepts more than scenes.
-void emit_xml_schema(struct strbuf *out);
 // The reference page, docs/reference.md.
 void emit_markdown(struct strbuf *out);
 // What other tools have and what to do instead, docs/limits.md.

@@ -125,7 +125,7 @@ for shell in bash fish; do
     in_$shell 'glint help ma' && completed "$shell: help about a command" manual
     in_$shell 'glint render --de' && completed "$shell: an option" --device
     in_$shell 'glint render --as ' && completed "$shell: words of an option" yaml xml
-    in_$shell 'glint schema ' && completed "$shell: words of a command" json relaxng rnc xsd markdown
+    in_$shell 'glint schema ' && completed "$shell: words of a command" json relaxng rnc markdown
     all in_$shell
 done
 

@@ -67,8 +67,11 @@ fi
 # ---- a fresh root
 
 root=${GLINT_FRESH_ROOT:-$source/build/fresh-root}
-[ -x "$root/usr/bin/dpkg" ] || skip "there is no fresh root; packaging/fresh_root.sh $work/one/$deb makes one"
 [ "$(id -u)" = 0 ] && unshare -m true 2>/dev/null || skip "only root can enter a fresh root"
+if [ ! -x "$root/usr/bin/dpkg" ]; then
+    command -v mmdebstrap >/dev/null || skip "there is no fresh root, and no mmdebstrap to make one"
+    "$source/packaging/fresh_root.sh" "one/$deb" "$root" >root.txt 2>&1 || skip "packaging/fresh_root.sh made no root: $(tail -n 1 root.txt)"
+fi
 cp "$source/scenes/tutorial/step-7.glint.yaml" scene.glint.yaml
 sed 's/radius: [0-9.]*/radius: -1/' scene.glint.yaml >wrong.glint.yaml
 mkdir upper below merged

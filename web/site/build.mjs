@@ -221,7 +221,7 @@ for (const [file, address] of copied) {
   const rows = sorted(fs.readdirSync(from)).filter((name) => name !== 'generated').map((name) => {
     const each = path.join(from, name);
     const facts = fs.statSync(each);
-    if (facts.isDirectory() || facts.size > BYTES_MOST || !/\.(ya?ml|xml|txt|json|rnc|rng|xsd|mtl|md|c|h|jpe?g|png|svg)$/.test(name)) return `<li>${escapeHtml(name)}${facts.isDirectory() ? '/' : ''}</li>`;
+    if (facts.isDirectory() || facts.size > BYTES_MOST || !/\.(ya?ml|xml|txt|json|rnc|rng|mtl|md|c|h|jpe?g|png|svg)$/.test(name)) return `<li>${escapeHtml(name)}${facts.isDirectory() ? '/' : ''}</li>`;
     if (copied.has(`${file}/${name}`)) return `<li><a href="${relative(address, copied.get(`${file}/${name}`))}">${escapeHtml(name)}</a></li>`;
     if (targets.has(`${file}/${name}`)) return `<li><a href="${relative(address, targets.get(`${file}/${name}`))}">${escapeHtml(name)}</a></li>`;
     write(`files/${file}/${name}`, fs.readFileSync(each));
