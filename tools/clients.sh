@@ -32,6 +32,7 @@ npm_clients() {
     mkdir -p build/clients
     cp tools/clients/package.json tools/clients/package-lock.json build/clients
     (cd build/clients && npm ci --ignore-scripts --no-audit --no-fund)
+    chmod +x build/clients/node_modules/@microsoft/sarif-multitool-*/Sarif.Multitool
 }
 made clients tools/clients/package-lock.json npm_clients
 made web-root 'tools/web.sh tools/apt_apart.sh' tools/web.sh
