@@ -61,7 +61,7 @@ struct ir_origin {
         int32_t frames; // 0: nothing moves
         double rate;
         unsigned inexact; // of its expressions: motion/expression.h
-    } motion; // what the animation said, also once a frame was taken
+    } motion;             // what the animation said, also once a frame was taken
 };
 
 void ir_origin_init(struct ir_origin *origin, struct arena *arena);

@@ -1,11 +1,12 @@
-// The one list of what a material is, as the tracers see it: struct scene_material is declared from it, and whether two
-// media are alike is asked of it.
+// The one list of what a material is, as the tracers see it: struct scene_material is declared from it, and
+// whether two media are alike is asked of it.
 //
 //     FIELD(KIND, name, SHARE)
 //
-// KIND: NUMBER, FLAG, WHOLE, COLOR (linear), COLORS (of a checker's even and odd cells), IMAGES (of ASSETS_IMAGES), BITS.
-// SHARE: MEDIUM where light knows a medium by it, so that bodies of materials that differ in it are two media where they
-// overlap; else BESIDE. A list of another layout (of a record, of the reference) is a macro for each kind.
+// KIND: NUMBER, FLAG, WHOLE, COLOR (linear), COLORS (of a checker's even and odd cells), IMAGES (of
+// ASSETS_IMAGES), BITS. SHARE: MEDIUM where light knows a medium by it, so that bodies of materials that
+// differ in it are two media where they overlap; else BESIDE. A list of another layout (of a record, of the
+// reference) is a macro for each kind.
 #ifndef GLINT_SCENE_MATERIAL_FIELDS_H
 #define GLINT_SCENE_MATERIAL_FIELDS_H
 

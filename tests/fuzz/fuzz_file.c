@@ -13,7 +13,7 @@ static void remove_file(void) {
 }
 
 static int open_file(void) {
-    static const char *const folders[] = {"/dev/shm", "/tmp"};
+    static const char *const folders[] = {"/dev/shm", P_tmpdir};
     for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
         snprintf(path, sizeof path, "%s/glint-fuzz-XXXXXX", folders[i]);
         const int file = mkstemp(path);
