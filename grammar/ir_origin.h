@@ -60,7 +60,8 @@ struct ir_origin {
     struct {
         int32_t frames; // 0: nothing moves
         double rate;
-    } motion; // what the animation said, also once a frame was taken
+        unsigned inexact; // of its expressions: motion/expression.h
+    } motion;             // what the animation said, also once a frame was taken
 };
 
 void ir_origin_init(struct ir_origin *origin, struct arena *arena);

@@ -37,16 +37,19 @@ static double slope_between(const struct curve *c, uint32_t a, uint32_t b, uint3
     return (value(c, b, i) - value(c, a, i)) / (c->frames[b] - c->frames[a]);
 }
 
-// At the ends: a loop that turns back does so without speed, one that closes goes on as it began.
+// At the ends a loop that turns back does so without speed. One that begins anew goes over its seam at one
+// speed, that from the key before the last to the one after the first, where the first and the last are the
+// same moment: also where their values differ, as those of a whole turn do.
 static double slope(const struct curve *c, uint32_t key, uint32_t i) {
     const uint32_t last = c->count - 1;
     if (key > 0 && key < last)
         return slope_between(c, key - 1, key + 1, i);
     if (c->loop == CURVE_MIRROR)
         return 0;
-    if (c->loop == CURVE_REPEAT && value(c, 0, i) == value(c, last, i) && last > 1) {
+    if (c->loop == CURVE_REPEAT) {
         const double before = c->frames[last] - c->frames[last - 1], after = c->frames[1] - c->frames[0];
-        return (value(c, 1, i) - value(c, last - 1, i)) / (before + after);
+        const double jump = value(c, last, i) - value(c, 0, i);
+        return (value(c, 1, i) - value(c, last - 1, i) + jump) / (before + after);
     }
     return key == 0 ? slope_between(c, 0, 1, i) : slope_between(c, last - 1, last, i);
 }

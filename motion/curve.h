@@ -17,7 +17,7 @@ enum curve_way {
 
 enum curve_loop {
     CURVE_ONCE,   // before the first key its value, after the last one that one's
-    CURVE_REPEAT, // from the last key on as from the first
+    CURVE_REPEAT, // from the last key on as from the first; smooth: over the seam at one speed
     CURVE_MIRROR, // from the last key on back to the first
 };
 

@@ -113,19 +113,20 @@ static const struct function {
     int count; // of arguments; 0: keys
     double (*call)(const double *a, int count);
     const char *wrong;
+    bool is_inexact; // its last bit depends on the C library
 } functions[] = {
-    {"sin", "sin(x)", 1, call_sin, "'sin' takes one argument"},
-    {"cos", "cos(x)", 1, call_cos, "'cos' takes one argument"},
-    {"sqrt", "sqrt(x)", 1, call_sqrt, "'sqrt' takes one argument"},
-    {"abs", "abs(x)", 1, call_abs, "'abs' takes one argument"},
-    {"floor", "floor(x)", 1, call_floor, "'floor' takes one argument"},
-    {"min", "min(a, b)", 2, call_min, "'min' takes two arguments"},
-    {"max", "max(a, b)", 2, call_max, "'max' takes two arguments"},
-    {"mix", "mix(a, b, share)", 3, call_mix, "'mix' takes three arguments"},
+    {"sin", "sin(x)", 1, call_sin, "'sin' takes one argument", true},
+    {"cos", "cos(x)", 1, call_cos, "'cos' takes one argument", true},
+    {"sqrt", "sqrt(x)", 1, call_sqrt, "'sqrt' takes one argument", false},
+    {"abs", "abs(x)", 1, call_abs, "'abs' takes one argument", false},
+    {"floor", "floor(x)", 1, call_floor, "'floor' takes one argument", false},
+    {"min", "min(a, b)", 2, call_min, "'min' takes two arguments", false},
+    {"max", "max(a, b)", 2, call_max, "'max' takes two arguments", false},
+    {"mix", "mix(a, b, share)", 3, call_mix, "'mix' takes three arguments", false},
     {"keys", "keys(x, x0, v0, x1, v1, ...)", 0, call_keys,
-     "'keys' takes x and then pairs, a place and the value there, the places in rising order"},
+     "'keys' takes x and then pairs, a place and the value there, the places in rising order", false},
     {"ease", "ease(x, x0, v0, x1, v1, ...)", 0, call_ease,
-     "'ease' takes x and then pairs, a place and the value there, the places in rising order"},
+     "'ease' takes x and then pairs, a place and the value there, the places in rising order", false},
 };
 
 static const struct constant {
@@ -144,6 +145,29 @@ void expression_names(struct strbuf *out) {
         strbuf_format(out, ", %s", constants[i].name);
     for (int i = 0; i < FUNCTIONS; i++)
         strbuf_format(out, ", %s", functions[i].form);
+}
+
+// '^' is pow.
+unsigned expression_inexact(str text) {
+    unsigned used = (text.len && memchr(text.ptr, '^', text.len)) ? 1u << FUNCTIONS : 0;
+    for (size_t at = 0; at < text.len; at++) {
+        const size_t begin = at;
+        while (at < text.len && (is_letter(text.ptr[at]) || is_digit(text.ptr[at])))
+            at++;
+        for (int i = 0; i < FUNCTIONS; i++)
+            if (functions[i].is_inexact && str_equal_cstr(str_slice(text, begin, at), functions[i].name))
+                used |= 1u << i;
+    }
+    return used;
+}
+
+void expression_inexact_names(unsigned used, struct strbuf *out) {
+    const char *between = "";
+    for (int i = 0; i <= FUNCTIONS; i++)
+        if (used >> i & 1) {
+            strbuf_format(out, "%s%s", between, i < FUNCTIONS ? functions[i].name : "^");
+            between = ", ";
+        }
 }
 
 static bool are_good(const struct function *f, const double *a, int count) {

@@ -28,5 +28,9 @@ bool expression_fill(str text, const struct expression_at *at, struct strbuf *ou
                      struct expression_fault *fault);
 // All names that an expression may use: "frame, time, pi, ... sin(x), ...".
 void expression_names(struct strbuf *out);
+// What a text with expressions uses whose last bit depends on the C library, so that a frame need not be the
+// same number everywhere: a set, 0 if nothing, and its names, "sin, ^".
+unsigned expression_inexact(str text);
+void expression_inexact_names(unsigned used, struct strbuf *out);
 
 #endif

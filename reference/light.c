@@ -159,9 +159,13 @@ static vec3 arriving(const struct reference *r, const struct view_light *light, 
     const struct ir_trace *trace = &r->input.scene->ir->trace;
     if (trace->shadows && trace->transparent_shadows)
         return shining(r, light, spot, start, *inside, out);
+    if (!trace->shadows)
+        return (vec3){1, 1, 1};
     const struct ray ray = ray_to(r, light, spot, start);
-    out->shadow_rays += trace->shadows;
-    return trace->shadows && reference_blocks(r, &ray) ? (vec3){0, 0, 0} : (vec3){1, 1, 1};
+    out->shadow_rays++;
+    if (reference_blocks(r, &ray))
+        return (vec3){0, 0, 0};
+    return light->directional ? (vec3){1, 1, 1} : reference_left(r, inside, vec3_length(ray.direction));
 }
 
 // Ambient light that nothing near keeps off: a ray into the hemisphere, by its cosine (Malley's method).

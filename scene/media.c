@@ -25,43 +25,52 @@ uint32_t scene_medium_material(const struct scene *scene, const struct scene_bod
     return body->materials[0];
 }
 
-enum {
-    KEY_NUMBERS = 24
-};
-
-static double *put_vector(double *to, vec3 v) {
-    *to++ = v.x;
-    *to++ = v.y;
-    *to++ = v.z;
-    return to;
+static int compare_number(double a, double b) {
+    return a < b ? -1 : a > b;
 }
 
-// All that light knows of a material but the size of a checker's cells, which each body counts in its own
-// coordinates.
-static void key_of(const struct scene_material *m, double key[KEY_NUMBERS]) {
-    const double single[] = {m->diffuse_weight,   m->specular_weight, m->reflection,
-                             m->refraction,       m->checker,         m->specular_exponent,
-                             m->refractive_index, m->fresnel,         m->alpha};
-    double *to = key;
-    for (size_t i = 0; i < sizeof single / sizeof *single; i++)
-        *to++ = single[i];
-    to = put_vector(to, m->diffuse[0]);
-    to = put_vector(to, m->diffuse[1]);
-    to = put_vector(to, m->specular);
-    to = put_vector(to, m->absorption);
-    to = put_vector(to, m->emission);
-    while (to < key + KEY_NUMBERS)
-        *to++ = 0;
+static int compare_color(vec3 a, vec3 b) {
+    const int x = compare_number(a.x, b.x), y = compare_number(a.y, b.y);
+    return x ? x : y ? y : compare_number(a.z, b.z);
 }
+
+// A file is one picture, whoever shows it. In which order two of them come matters to nobody.
+static int compare_image(const struct scene_image *a, const struct scene_image *b) {
+    const double own[] = {a->filter, a->wrap, a->u[0], a->u[1], a->u[2], a->v[0], a->v[1], a->v[2]};
+    const double other[] = {b->filter, b->wrap, b->u[0], b->u[1], b->u[2], b->v[0], b->v[1], b->v[2]};
+    const uintptr_t left = (uintptr_t)a->picture, right = (uintptr_t)b->picture;
+    int order = left < right ? -1 : left > right;
+    for (size_t i = 0; i < sizeof own / sizeof *own && !order; i++)
+        order = compare_number(own[i], other[i]);
+    return order;
+}
+
+static int compare_images(const struct scene_image *a, const struct scene_image *b) {
+    int order = 0;
+    for (int i = 0; i < ASSETS_IMAGES && !order; i++)
+        order = compare_image(&a[i], &b[i]);
+    return order;
+}
+
+static int compare_colors(const vec3 a[2], const vec3 b[2]) {
+    const int even = compare_color(a[0], b[0]);
+    return even ? even : compare_color(a[1], b[1]);
+}
+
+// The field of both materials, by its kind.
+#define ORDER_NUMBER(name) compare_number(a->name, b->name)
+#define ORDER_FLAG(name)   compare_number(a->name, b->name)
+#define ORDER_COLOR(name)  compare_color(a->name, b->name)
+#define ORDER_COLORS(name) compare_colors(a->name, b->name)
+#define ORDER_IMAGES(name) compare_images(a->name, b->name)
+#define COMPARE_BESIDE(kind, name)
+#define COMPARE_MEDIUM(kind, name)       order = order ? order : ORDER_##kind(name);
+#define COMPARE_FIELD(kind, name, share) COMPARE_##share(kind, name)
 
 int scene_compare_media(const struct scene_material *a, const struct scene_material *b) {
-    double own[KEY_NUMBERS], other[KEY_NUMBERS];
-    key_of(a, own);
-    key_of(b, other);
-    for (int i = 0; i < KEY_NUMBERS; i++)
-        if (own[i] != other[i])
-            return own[i] < other[i] ? -1 : 1;
-    return 0;
+    int order = 0;
+    SCENE_MATERIAL_FIELDS(COMPARE_FIELD)
+    return order;
 }
 
 // ---- which scenes need them

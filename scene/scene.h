@@ -12,6 +12,7 @@
 #include "assets/assets.h"
 #include "core/arena.h"
 #include "core/vec3.h"
+#include "scene/material_fields.h"
 
 struct ir_color;
 struct ir_head;
@@ -74,7 +75,8 @@ struct scene_texture {
 
 // How a material shows a texture.
 struct scene_image {
-    const struct scene_texture *texture; // NULL: it shows none, or its pixels are not there
+    const struct picture *picture;       // NULL: it shows none
+    const struct scene_texture *texture; // the same; NULL also where its pixels are not there
     // From the coordinates of a surface (u, v) to those of the image (0..1, v upwards): rows u, v of a
     // matrix, and what is added.
     double u[3], v[3];
@@ -82,20 +84,16 @@ struct scene_image {
 };
 
 // A material as the tracers see it. Colours are linear and not yet multiplied by their weights.
+#define SCENE_DECLARE_NUMBER(name)         double name;
+#define SCENE_DECLARE_FLAG(name)           bool name;
+#define SCENE_DECLARE_WHOLE(name)          int32_t name;
+#define SCENE_DECLARE_BITS(name)           uint64_t name;
+#define SCENE_DECLARE_COLOR(name)          vec3 name;
+#define SCENE_DECLARE_COLORS(name)         vec3 name[2];
+#define SCENE_DECLARE_IMAGES(name)         struct scene_image name[ASSETS_IMAGES];
+#define SCENE_DECLARE_FIELD(kind, name, _) SCENE_DECLARE_##kind(name)
 struct scene_material {
-    double diffuse_weight, specular_weight, reflection, refraction;
-    vec3 diffuse[2]; // of the odd cells too, where it is a checker; else equal
-    bool checker;
-    double cell; // edge of a checker's cells, scene units; 1 without
-    bool soft;   // the checker is filtered
-    vec3 specular, emission;
-    struct scene_image images[ASSETS_IMAGES]; // of the diffuse and of the specular colour: in place of it
-    double specular_exponent, refractive_index;
-    bool fresnel;
-    double alpha; // of the distribution of micro normals: roughness squared; 0: smooth
-    int32_t priority;
-    vec3 absorption; // per scene unit, at most SCENE_ABSORPTION_MAX: exp(-absorption * way) is left of light
-    uint64_t features; // FEATURE_ bits that it asks for (grammar/ir_features.h)
+    SCENE_MATERIAL_FIELDS(SCENE_DECLARE_FIELD)
 };
 
 // Whether its colours need more than two of a checker's cells: for what shows scenes otherwise, and must

@@ -197,6 +197,7 @@ static struct scene_image image_of(struct scene *scene, uint32_t material, int w
     const struct picture *picture = scene->assets->images[material][which];
     struct scene_image image =
         placed_image(which == ASSETS_DIFFUSE ? &ir->diffuse_color.image : &ir->specular_color.image);
+    image.picture = picture;
     if (picture && picture->pixels)
         image.texture = texture_of(scene, picture, arena);
     return image;

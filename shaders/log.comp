@@ -195,11 +195,14 @@ void main() {
             return;
     }
     bool ended = true, blind = states[index * LOG_RAY_WORDS + 1u].z == LOG_BLIND;
+    bool shadows = HAS_SHADOWS && wants(FEATURE_SHADOWS);
     vec3 left = vec3(1.0);
+    if (lights && shadows && !shines())
+        left = arriving_left(ray.inside, shadow);
     if (lights && shines()) {
         left = shine_all(start, kind - LOG_LIGHTS, shadow, ray.inside, ended);
         hit.item = left != vec3(0.0) ? NO_ITEM : 0u;
-    } else if (lights ? (HAS_SHADOWS && wants(FEATURE_SHADOWS)) : !blind)
+    } else if (lights ? shadows : !blind)
         ended = trace(start, aim, lights, hit);
     bool nothing = hit.item == NO_ITEM;
     if (lights) {
@@ -207,7 +210,7 @@ void main() {
         uint light = kind - LOG_LIGHTS, bit = light < min(frame.light_count, 32u) ? 1u << light : 0u;
         pixels[at + 2u] = uvec4(found.x | bit, nothing ? found.y | bit : found.y, found.z, found.w + (ended ? 0u : 1u));
         if (nothing)
-            add_to_log(at, shines() ? shadow.value * left : shadow.value);
+            add_to_log(at, shadow.value * left);
         return;
     }
     write_hit(at, ray, hit, blind, ended);

@@ -130,6 +130,14 @@ vec3 media_left(media_set set, REAL way) {
     return left;
 }
 
+// What is left of light from a lamp that nothing blocks: of a way inside the medium that the surface is lit in.
+vec3 arriving_left(media_set inside, light_ray ray) {
+    vec3 left = vec3(1.0);
+    if (HAS_ATTENUATION && wants(FEATURE_ATTENUATION) && ray.t_max < FAR_AWAY)
+        left = media_left(inside, ray.t_max * sqrt(dot3(ray.direction, ray.direction)));
+    return left;
+}
+
 // ---- light that shines through what refracts: a shadow ray goes straight on behind each surface that it hits, and keeps a
 // part of its light (docs/language.md, "Shadows of glass")
 

@@ -236,7 +236,8 @@ void take_light(inout path_state p, ray_start start, hit_record hit, light_ray s
         value = shadow.value * way.left;
         p.shine = way;
         p.shine.goes_on = goes_on;
-    }
+    } else if (arrives)
+        value *= arriving_left(p.inside, shadow);
     if (arrives)
         add_light(value, p.light_sum, p.light_low);
     p.light += goes_on ? 0u : 1u;

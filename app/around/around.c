@@ -69,12 +69,17 @@ static vec3 turned(const struct frame *f, vec3 p) {
     return mat3_apply(f->turn, p);
 }
 
-static void find_box(const struct around_input *in, struct frame *f) {
+// false: it is a point, or too large. A box is as exact as the numbers that say where it is.
+static bool find_box(const struct around_input *in, struct frame *f) {
     const vec3 a = turned(f, in->mesh->lower), b = turned(f, in->mesh->upper);
     f->lower = vec3_min(a, b);
     f->upper = vec3_max(a, b);
     f->extent = vec3_max_abs(vec3_sub(f->upper, f->lower));
+    const double most = fmax(vec3_max_abs(f->lower), vec3_max_abs(f->upper));
+    if (!(f->extent > 1e-6 * most && f->extent > 1 / EXTENT_MOST && most < EXTENT_MOST))
+        return false;
     f->exponent = (int)floor(log10(f->extent)) - 2;
+    return true;
 }
 
 // The camera that sees all of the mesh, in the middle of the picture.
@@ -242,10 +247,7 @@ static void add_model(const struct around_input *in, struct ir_scene *scene) {
 
 bool around_mesh(const struct around_input *in, struct ir_scene *out) {
     struct frame f = {.turn = mat3_rotation((vec3){stands_on_its_side(in->mesh) ? -90 : 0, 0, 0})};
-    find_box(in, &f);
-    // A box is as exact as the numbers that say where it is.
-    const double most = fmax(vec3_max_abs(f.lower), vec3_max_abs(f.upper));
-    if (!(f.extent > 1e-6 * most && f.extent > 1 / EXTENT_MOST && most < EXTENT_MOST))
+    if (!find_box(in, &f))
         return false;
     schema_init(&SCHEMA_SCENE, out);
     out->version = 1;

@@ -152,15 +152,19 @@ char *part_take_line(char **text, const char *word) {
 
 static bool take_key(char **text, const char *word, uint64_t key[2]) {
     const char *line = part_take_line(text, word);
-    return line && strlen(line) == 32 && sscanf(line, "%16" SCNx64 "%16" SCNx64, &key[0], &key[1]) == 2;
+    return line && strlen(line) == 32 && strspn(line, "0123456789abcdef") == 32 &&
+           sscanf(line, "%16" SCNx64 "%16" SCNx64, &key[0], &key[1]) == 2;
 }
 
 bool part_take_numbers(char **text, const char *word, uint32_t *out, int count) {
     const char *line = part_take_line(text, word);
     for (int i = 0; line && i < count; i++) {
         char *end;
+        // strtoul takes signs and any space.
+        if ((i && *line++ != ' ') || *line < '0' || *line > '9')
+            return false;
         const unsigned long value = strtoul(line, &end, 10);
-        if (end == line || value > INT32_MAX)
+        if (value > INT32_MAX)
             return false;
         out[i] = (uint32_t)value;
         line = end;
@@ -169,12 +173,12 @@ bool part_take_numbers(char **text, const char *word, uint32_t *out, int count) 
 }
 
 static bool take_display(char **text, struct image_display *display) {
-    const char *line = part_take_line(text, "shown");
-    char tone[16], transfer[16];
-    if (!line || sscanf(line, "%15s %15s", tone, transfer) != 2)
+    char *tone = part_take_line(text, "shown"), *space = tone ? strchr(tone, ' ') : NULL;
+    if (!space)
         return false;
+    *space = '\0';
     const int a = word_of(tones, sizeof tones / sizeof *tones, tone);
-    const int b = word_of(transfers, sizeof transfers / sizeof *transfers, transfer);
+    const int b = word_of(transfers, sizeof transfers / sizeof *transfers, space + 1);
     *display = (struct image_display){(unsigned)a, (unsigned)b};
     return a >= 0 && b >= 0;
 }
@@ -207,7 +211,9 @@ bool part_take_head(char **text, const char *kind, struct part *part) {
 static size_t read_head(char *text, struct part *part) {
     char *at = text;
     const char *data = part_take_head(&at, "part", part) ? part_take_line(&at, "data") : NULL;
-    const bool good = data && strtoull(data, NULL, 10) == heap_times(floats_of(part), sizeof *part->rgb);
+    char bytes[32];
+    snprintf(bytes, sizeof bytes, "%zu", heap_times(floats_of(part), sizeof *part->rgb));
+    const bool good = data && strcmp(data, bytes) == 0;
     return good ? (size_t)(at - text) : 0;
 }
 

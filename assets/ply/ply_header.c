@@ -21,6 +21,7 @@ struct header_reader {
     size_t at;             // the next line
     size_t begin, end;     // this line
     size_t word;           // in this line, the next word
+    size_t taken;          // the last one
     bool has_format, ends; // "end_header" was read
 };
 
@@ -51,10 +52,10 @@ static bool next_line(struct header_reader *r) {
 static str next_word(struct header_reader *r) {
     while (r->word < r->end && char_is_blank(r->text.ptr[r->word]))
         r->word++;
-    const size_t begin = r->word;
+    r->taken = r->word;
     while (r->word < r->end && !char_is_blank(r->text.ptr[r->word]))
         r->word++;
-    return str_slice(r->text, begin, r->word);
+    return str_slice(r->text, r->taken, r->word);
 }
 
 static void report_word(struct header_reader *r, str word, const char *what) {
@@ -88,6 +89,15 @@ static enum ply_type take_type(struct header_reader *r) {
     if (type == PLY_NONE)
         report_word(r, word, "should be a type: char, uchar, short, ushort, int, uint, float or double");
     return type;
+}
+
+static enum ply_type take_count_type(struct header_reader *r) {
+    const enum ply_type type = take_type(r);
+    if (type == PLY_NONE || ply_is_whole(type))
+        return type;
+    report_word(r, str_slice(r->text, r->taken, r->word),
+                "cannot count the items of a list: choose a whole type, such as uchar");
+    return PLY_NONE;
 }
 
 // ---- lines of each kind
@@ -129,7 +139,7 @@ static void read_property(struct header_reader *r) {
     const bool is_list = str_equal_cstr(next_word(r), "list");
     if (!is_list)
         r->word = before;
-    if (is_list && (property.count = take_type(r)) == PLY_NONE)
+    if (is_list && (property.count = take_count_type(r)) == PLY_NONE)
         return;
     if ((property.type = take_type(r)) == PLY_NONE)
         return;

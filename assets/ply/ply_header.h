@@ -25,6 +25,9 @@ enum ply_type {
     PLY_FLOAT64,
     PLY_TYPES
 };
+static inline bool ply_is_whole(enum ply_type type) {
+    return type > PLY_NONE && type < PLY_FLOAT32;
+}
 
 struct ply_property {
     str name;

@@ -372,6 +372,10 @@ static bool walk(struct ply_reading *r) {
         else if ((is_face || is_strip) && element->count)
             asset_report(r->file, DIAG_MESH_SYNTAX, element->at, element->end,
                          "'%.*s' has no list 'vertex_indices'", STR_ARG(element->name));
+        if (extent->list != PLY_ABSENT && !ply_is_whole(element->properties.items[extent->list].type))
+            asset_report(r->file, DIAG_MESH_SYNTAX, element->at, element->end,
+                         "the '%.*s' of '%.*s' must be whole numbers, such as int",
+                         STR_ARG(element->properties.items[extent->list].name), STR_ARG(element->name));
         if (r->file->errors || !ply_walk(r->file, r->scratch, &c, extent))
             return false;
     }

@@ -134,10 +134,6 @@ static int merge(struct render_job *job) {
             job->record = NULL;
     if (is_done(job))
         return CLI_OK;
-    if (!image_init(&job->image, parts->width, parts->height)) {
-        cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory for the picture");
-        return CLI_SCENE;
-    }
     job->image_made.tone = parts->display.tone;
     job->image_made.transfer = parts->display.transfer;
     job->session.image = &job->image_made;

@@ -1,5 +1,8 @@
 #include "fuzz_mesh.h"
 
+#include "app/around/around.h"
+#include "app/import/plan.h"
+#include "app/import/scene_text.h"
 #include "assets/mesh_coordinates.h"
 #include "diag/diag_text.h"
 #include "fuzz_sample.h"
@@ -68,6 +71,29 @@ static void check_coordinates(const struct assets_input *input, str path, str te
     arena_finish(&c.mesh.arena);
 }
 
+// The scene around a mesh, and that of a glTF file, as `glint render` and `glint import` make them.
+struct scenes {
+    struct assets around;
+    struct gltf_document *document;
+};
+
+static void check_scenes(struct asset_store *store, const struct assets_input *input, str path,
+                         struct scenes *out) {
+    struct strbuf text;
+    const struct import_source source = {input, store, &out->around, 0, 0};
+    strbuf_init(&text);
+    if (mesh_format_of_path(path) != MESH_FORMAT_GLTF) {
+        around_text(store, input, path, 0, 0, &out->around);
+        return;
+    }
+    import_scene_text(&source, path, &text);
+    struct import_plan plan;
+    out->document = import_open(input, path);
+    if (out->document && import_plan_make(out->document, NULL, STR("/scene.glint.yaml"), &plan))
+        import_plan_write(&plan, (enum import_spelling)(text.len % 3), &text);
+    strbuf_finish(&text);
+}
+
 struct loaded {
     struct asset_store *store;
     str name, mesh, materials; // the mesh's path; texts
@@ -79,6 +105,7 @@ struct loaded {
     struct ir_origin origin;
     struct ir_scene scene;
     struct assets assets;
+    struct scenes scenes;
 };
 
 static void load(void *context) {
@@ -111,6 +138,8 @@ static void load(void *context) {
     // Those of glTF are read with the document, for the images that its materials name.
     if (loaded && mesh_format_of_path(s->name) != MESH_FORMAT_GLTF && fuzz_is_chosen(s->mesh, 0, 4))
         check_coordinates(&input, s->name, s->mesh, loaded);
+    if (fuzz_is_chosen(s->mesh, 1, 4))
+        check_scenes(s->store, &input, s->name, &s->scenes);
     struct scene scene;
     scene_build(&s->scene, &s->assets, &s->arena, &scene);
     scene_check_reach(&scene, &s->sink);
@@ -132,6 +161,8 @@ void fuzz_mesh(const char *path, str mesh, str materials) {
     diag_sink_init(&s->sink);
     arena_init(&s->arena, MEMORY_BYTES);
     arena_guarded(&s->arena, load, s);
+    gltf_documents_finish(s->scenes.document);
+    assets_finish(&s->scenes.around);
     assets_finish(&s->assets);
     asset_store_destroy(s->store);
     diag_sink_finish(&s->sink);

@@ -108,6 +108,14 @@ static const struct {
     {PLY_HEAD "property float x\n", "m.ply:3:1: error: 'property' belongs after an element"},
     {PLY_HEAD "element vertex 3\nproperty floot x\n", "m.ply:4:10: error: 'floot' should be a type: char"},
     {PLY_HEAD "element vertex 3\nproperty list uchar x\n", "m.ply:4:21: error: 'x' should be a type"},
+    {PLY_HEAD "element vertex 3.0\n", "m.ply:3:16: error: '3.0' should be the number of elements"},
+    {PLY_HEAD "element face 1\nproperty list float int vertex_indices\n",
+     "m.ply:4:15: error: 'float' cannot count the items of a list: choose a whole type, such as uchar "
+     "[E610]"},
+    {PLY_HEAD "element face 1\nproperty list float64 float x\n", "m.ply:4:15: error: 'float64' cannot count"},
+    {PLY_HEAD "element vertex 1\n" PLY_XYZ
+              "element face 1\nproperty list uchar float vertex_indices\nend_header\n0 0 0\n3 0 0 0\n",
+     "m.ply:7:1: error: the 'vertex_indices' of 'face' must be whole numbers, such as int [E610]"},
     {PLY_HEAD "element vertex 3\nproperty float\n", "m.ply:4:1: error: this line ends where something should "
                                                     "be the property's name"},
     {PLY_HEAD "element vertex 3\n", "the header does not end with 'end_header'"},

@@ -72,6 +72,24 @@ static void smooth_has_no_corner(void **state) {
     }
 }
 
+// A loop shows the middle of three turns that are written out, each beginning where the one before has ended.
+static void a_loop_is_the_middle_of_three_turns(void **state) {
+    (void)state;
+    static const double turns[][4] = {{0, 90, 100, 360}, {1, 5, 3, 1}, {-2, 0, 7, 0.5}};
+    for (size_t k = 0; k < sizeof turns / sizeof *turns; k++) {
+        double when[10], what[10];
+        const double *v = turns[k];
+        for (int i = 0; i < 10; i++) {
+            when[i] = frames[i % 3] + 40 * (i / 3);
+            what[i] = v[i % 3] + (v[3] - v[0]) * (i / 3);
+        }
+        const struct curve loop = {frames, v, 4, 1, CURVE_SMOOTH, CURVE_REPEAT};
+        const struct curve written = {when, what, 10, 1, CURVE_SMOOTH, CURVE_ONCE};
+        for (double frame = 0; frame < 40; frame += 0.25)
+            assert_true(fabs(at(&loop, frame) - (at(&written, frame + 40) - (v[3] - v[0]))) < 1e-9);
+    }
+}
+
 static void straight_keys_make_a_straight_curve(void **state) {
     (void)state;
     const double line[] = {0, 20, 60, 80};
@@ -104,6 +122,7 @@ int main(void) {
         cmocka_unit_test(between_keys),
         cmocka_unit_test(ends_stay_or_loop),
         cmocka_unit_test(smooth_has_no_corner),
+        cmocka_unit_test(a_loop_is_the_middle_of_three_turns),
         cmocka_unit_test(straight_keys_make_a_straight_curve),
         cmocka_unit_test(one_key_and_several_numbers),
     };
