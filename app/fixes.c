@@ -65,6 +65,33 @@ static struct fixed_file *find_file(struct fixer *f, struct session *session, ui
     return file;
 }
 
+static str shown_path(struct session *session, str path) {
+    str rest;
+    return path_is_below(path, files_canonical(&session->files, STR(".")), &rest) ? rest : path;
+}
+
+// Files that are created. Returns how many of them no round has created before.
+static uint32_t create_files(struct fixer *f, struct session *session) {
+    struct fixes *fixes = f->fixes;
+    uint32_t created = 0;
+    for (uint32_t i = 0; i < session->sink.count; i++) {
+        const struct diag *item = &session->sink.items[i];
+        bool known = item->fix_file.len == 0 || !(item->fix_is_safe || f->level == FIX_ALL);
+        for (uint32_t k = 0; k < fixes->files.count && !known; k++)
+            known = str_equal(fixes->files.items[k].canonical, item->fix_file);
+        if (known)
+            continue;
+        *ARENA_PUSH(&fixes->arena, &fixes->files) =
+            (struct fixed_file){.path = arena_copy(&fixes->arena, shown_path(session, item->fix_file)),
+                                .canonical = arena_copy(&fixes->arena, item->fix_file),
+                                .text = arena_copy(&fixes->arena, item->fix_text),
+                                .changes = 1,
+                                .is_new = true};
+        created++;
+    }
+    return created;
+}
+
 // ---- one round
 
 // The changes of the last round to one file, which are in the order of its text: those that begin before
@@ -168,6 +195,7 @@ static void change_files(void *context) {
     for (uint32_t source = 1; source < round->session.sources.count; source++)
         if (is_scene(&round->session, source))
             round->made += change_file(round->fixer, &round->session, source);
+    round->made += create_files(round->fixer, &round->session);
     struct fixer *f = round->fixer;
     if (f->tried.count)
         qsort(f->tried.items, f->tried.count, sizeof *f->tried.items, compare_tried);
@@ -205,6 +233,8 @@ static void take_back_what_is_broken(struct fixer *f) {
     struct fixes *fixes = f->fixes;
     for (uint32_t i = 0; i < fixes->files.count; i++) {
         struct fixed_file *file = &fixes->files.items[i];
+        if (file->is_new)
+            continue;
         struct layout layout;
         enum layout_status status = layout_text(&layout, file->path, file->text, &f->options.limits, false);
         layout_finish(&layout);

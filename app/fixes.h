@@ -24,6 +24,7 @@ struct fixed_file {
     str text; // equal to `before`: nothing must be written
     uint32_t changes;
     bool refused;
+    bool is_new; // there was none
 };
 
 struct fixes {

@@ -51,8 +51,9 @@ struct session_options {
     bool whole_picture; // all its pixels are needed at once: more than SESSION_PIXELS_MOST are an error
     bool pixels_later;  // session_load need not wait for the background's pixels: session_settle does
     struct timeline *timeline; // may be NULL
-    bool judged; // the caller judges the findings by policy and comments (app/check.h): they are not yet
-                 // sorted
+    bool unnamed; // nothing is read but its beginning: the file begins as a scene does, and has another name
+    bool judged;  // the caller judges the findings by policy and comments (app/check.h): they are not yet
+                  // sorted
 };
 
 // Most pixels of a picture, or of a part of one, that is held in memory as a whole.
@@ -79,6 +80,7 @@ struct session {
     struct diag_sink sink;
     struct ir_scene *scene;
     struct ir_origin origin;
+    span unread;                  // the first include that could not be read; SPAN_NONE: all were
     const struct ir_image *image; // the scene's, with the options' size and samples
     double unused_error;          // what the scene says that no pixel ends by; 0: it says nothing, or they do
     struct assets assets;

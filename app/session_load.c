@@ -10,6 +10,7 @@
 #include "grammar/ir_print_text.h"
 #include "grammar/mesh_format.h"
 #include "parser/parser.h"
+#include "parser/tree/reader.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -218,7 +219,20 @@ enum extent {
     EXTENT_SCENE,
     EXTENT_FILE,     // without includes and assets
     EXTENT_SETTINGS, // it is a configuration
+    EXTENT_NAME,     // only that its name is not that of a scene
 };
+
+static void report_name(struct session *session, uint32_t source) {
+    const str base = path_base(session->options.path);
+    size_t dot = base.len;
+    while (dot > 0 && base.ptr[dot - 1] != '.')
+        dot--;
+    diag_add(&session->sink, DIAG_SCENE_NAME, (span){source, 0, 0},
+             "this begins as a scene does, and was left out, because its name is not that of a scene");
+    diag_help(&session->sink, "rename it to '%.*sglint.%s', or name it on the command line", (int)dot,
+              base.ptr,
+              reader_is_xml(session->options.path, session->sources.items[source].text) ? "xml" : "yaml");
+}
 
 static enum session_state load_stages(struct session *session, struct asset_store *store,
                                       enum extent extent) {
@@ -234,6 +248,10 @@ static enum session_state load_stages(struct session *session, struct asset_stor
     timeline_add(session->options.timeline, "read", session->options.path, start);
     if (state != SESSION_LOADED)
         return state;
+    if (extent == EXTENT_NAME) {
+        report_name(session, source);
+        return SESSION_NO_SCENE;
+    }
     struct parser_input input = {.sources = &session->sources,
                                  .files = &session->files,
                                  .sink = &session->sink,
@@ -249,6 +267,7 @@ static enum session_state load_stages(struct session *session, struct asset_stor
         return SESSION_NO_SCENE;
     session->scene = output.scene;
     session->origin = output.origin;
+    session->unread = output.unread;
     take_image_options(session);
     if (!alone && !session->options.text_only) {
         if (session->options.on_text && session->sink.errors == 0)
@@ -318,7 +337,7 @@ void session_settle(struct session *session) {
 
 enum session_state session_load(struct session *session, const struct session_options *options,
                                 struct asset_store *store) {
-    return guarded_load(session, options, store, EXTENT_SCENE);
+    return guarded_load(session, options, store, options->unnamed ? EXTENT_NAME : EXTENT_SCENE);
 }
 
 enum session_state session_load_text(struct session *session, const struct session_options *options) {

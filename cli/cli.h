@@ -232,6 +232,9 @@ void cli_error(struct cli *cli, enum diag_code code, const char *path, const cha
                ...) __attribute__((format(printf, 5, 6)));
 // Reports that a signal ended the work (progress.h); returns its exit code.
 int cli_interrupted(struct cli *cli);
+// Whether a scene's file can be opened: CLI_OK, or CLI_FILE with an error printed. For who opens a device or
+// a window first.
+int cli_try_scene(struct cli *cli, const char *path);
 struct session_options cli_session_options(const struct cli *cli, const char *path);
 // Where render writes without -o: the scene's name without its endings, in the current folder:
 // showcase.glint.yaml becomes showcase.png. In cli->arena.

@@ -9,11 +9,11 @@
 #include "app/scope/changed.h"
 #include "cli/cli.h"
 #include "cli/fix.h"
+#include "cli/folder_scenes.h"
 #include "core/parallel.h"
 #include "core/str_map.h"
 #include "diag/diag_report_text.h"
 #include "diag/diag_text.h"
-#include "files/files_walk.h"
 #include "parser/tree/reader_text.h"
 
 #include <errno.h>
@@ -31,7 +31,6 @@ enum check_format {
     CHECK_JUNIT,
 };
 static const char *const formats[] = {"text", "json", "sarif", "github", "gitlab", "junit", NULL};
-static const char *const endings[] = {".glint.yaml", ".glint.yml", ".glint.xml", NULL};
 
 // A store of meshes and images belongs to one thread at a time, and serves one scene after another.
 struct check_store {
@@ -50,6 +49,7 @@ struct check_file {
     int status;
     bool failed;   // no memory for the record
     bool affected; // by what changed
+    bool unnamed;  // it begins as a scene does, and has another name
 };
 
 struct check {
@@ -60,7 +60,10 @@ struct check {
         struct check_file *items;
         uint32_t count, capacity;
     } files;
-    struct str_map paths; // of files
+    struct str_map paths;     // of files
+    struct scene_names names; // of those in folders, and of others that begin as scenes do
+    uint32_t named;           // scenes that are named where all others are found
+    uint32_t first;           // file of the step; at last, the first of those others
     struct check_store *stores;
     unsigned store_count;
     void (*step)(struct check *check, struct check_file *file, struct asset_store *store); // of all files
@@ -80,6 +83,7 @@ static int status_of(const struct session *session) {
 static struct session_options options_of(const struct check *check, const struct check_file *file) {
     struct session_options options = cli_session_options(check->cli, file->path);
     options.found_in = str_from(file->folder);
+    options.unnamed = file->unnamed;
     return options;
 }
 
@@ -95,6 +99,7 @@ static void check_one(struct check *check, struct check_file *file, struct asset
         baseline_found_init(&file->found, check->found_folder);
     }
     check_scene(&session, &options, store);
+    scene_names_note(&check->names, &session);
     if (check->baseline || check->found_folder.len)
         file->in_baseline =
             baseline_take(&session, check->baseline, check->found_folder.len ? &file->found : NULL);
@@ -124,6 +129,7 @@ static void find_affected(struct check *check, struct check_file *file, struct a
     struct session_options options = options_of(check, file);
     options.pixels = ASSETS_SKIP_PIXELS;
     session_load(&session, &options, store);
+    scene_names_note(&check->names, &session);
     file->affected = changed_affects(check->changed, &session);
     session_finish(&session);
 }
@@ -135,7 +141,7 @@ static void step_some(void *context, size_t begin, size_t end) {
     while (atomic_flag_test_and_set(&check->stores[slot].busy))
         slot = (slot + 1) % check->store_count;
     for (size_t i = begin; i < end; i++)
-        check->step(check, &check->files.items[i], check->stores[slot].store);
+        check->step(check, &check->files.items[check->first + i], check->stores[slot].store);
     atomic_flag_clear(&check->stores[slot].busy);
 }
 
@@ -159,7 +165,71 @@ static void finish_stores(struct check *check) {
 static void with_all(struct check *check,
                      void (*step)(struct check *check, struct check_file *file, struct asset_store *store)) {
     check->step = step;
-    parallel_for(check->files.count, 1, step_some, check);
+    parallel_for(check->files.count - check->first, 1, step_some, check);
+}
+
+// ---- the files
+
+// A file that is named twice, or is in a folder that is named too, is checked once. NULL: it is there
+// already.
+static struct check_file *add_file(struct check *check, const char *path, const char *folder) {
+    uint32_t *place = str_map_at(&check->paths, str_from(path));
+    if (*place) {
+        check->files.items[*place - 1].folder = folder ? check->files.items[*place - 1].folder : NULL;
+        return NULL;
+    }
+    struct check_file *file = ARENA_PUSH(&check->cli->arena, &check->files);
+    *place = check->files.count;
+    file->path = path;
+    file->folder = folder;
+    strbuf_init(&file->text);
+    return file;
+}
+
+// Adds the scenes in a folder; CLI_FILE if it cannot be read, CLI_USAGE if it has none.
+static int add_folder(struct check *check, int arg, const char *path) {
+    struct cli *cli = check->cli;
+    struct scene_names found = {0};
+    const int status = cli_find_scenes(cli, path, &found);
+    for (uint32_t i = 0; i < found.paths.count; i++)
+        add_file(check, found.paths.items[i].ptr, path);
+    for (uint32_t i = 0; i < found.others.count; i++)
+        *ARENA_PUSH(&cli->arena, &check->names.others) = found.others.items[i];
+    // A file that is named beside it is checked all the same.
+    if (status == CLI_OK && !found.paths.count && !check->named)
+        return cli_no_scene(cli, arg, path, &found);
+    return status;
+}
+
+static int add_operands(struct check *check) {
+    struct cli *cli = check->cli;
+    int worst = CLI_OK;
+    for (int i = 0; i < cli->operand_count; i++) {
+        int status = CLI_OK;
+        if (files_is_folder(str_from(cli->operands[i])))
+            status = add_folder(check, cli_operand_place(cli, i), cli->operands[i]);
+        else if (!check->changed)
+            add_file(check, cli->operands[i], NULL);
+        worst = status > worst ? status : worst;
+    }
+    return worst;
+}
+
+// Scenes among the files that are named are checked wherever they are, whatever they are called.
+static int add_changed(struct check *check) {
+    struct changed *changed = check->changed;
+    struct cli *cli = check->cli;
+    for (uint32_t i = 0; i < changed->named.count; i++) {
+        const str path = changed->named.items[i];
+        if (scene_name_fits(path) && add_file(check, path.ptr, NULL))
+            check->named++;
+        else
+            scene_names_add(&check->names, &cli->arena, path);
+    }
+    check->named += check->names.others.count;
+    return changed->names_folders
+               ? add_operands(check)
+               : add_folder(check, cli->options.changed_arg, changed->searched.items[0].ptr);
 }
 
 // Leaves out the scenes that read nothing that changed.
@@ -175,80 +245,21 @@ static void keep_affected(struct check *check) {
     check->files.count = kept;
 }
 
-// ---- the files
-
-// A file that is named twice, or is in a folder that is named too, is checked once.
-static void add_file(struct check *check, const char *path, const char *folder) {
-    uint32_t *place = str_map_at(&check->paths, str_from(path));
-    if (*place) {
-        check->files.items[*place - 1].folder = folder ? check->files.items[*place - 1].folder : NULL;
-        return;
+// What begins as a scene does and none reads: those that were named are scenes, the others are warned of.
+static void add_others(struct check *check, bool named) {
+    const struct scene_names *names = &check->names;
+    struct files files;
+    files_init(&files, &check->cli->arena);
+    for (uint32_t i = 0; i < names->others.count; i++) {
+        const struct scene_other *other = &names->others.items[i];
+        if (names->read[i] || (other->folder.len == 0) != named ||
+            (check->changed && !changed_holds(check->changed, files_canonical(&files, other->path))))
+            continue;
+        struct check_file *file = add_file(check, other->path.ptr, named ? NULL : other->folder.ptr);
+        check->looked_at += named && file;
+        if (file)
+            file->unnamed = !named;
     }
-    struct check_file *file = ARENA_PUSH(&check->cli->arena, &check->files);
-    *place = check->files.count;
-    file->path = path;
-    file->folder = folder;
-    strbuf_init(&file->text);
-}
-
-// Adds the scenes in a folder; CLI_FILE if it cannot be read.
-static int add_folder(struct check *check, const char *path, uint32_t *count) {
-    struct cli *cli = check->cli;
-    struct files_found found = {.arena = &cli->arena, .endings = endings};
-    if (files_walk(&found, str_from(path)) != FILE_OK) {
-        cli_error(cli, DIAG_FILE_UNREADABLE, found.unreadable.ptr, NULL, "the folder cannot be read: %s",
-                  strerror(errno));
-        return CLI_FILE;
-    }
-    for (uint32_t i = 0; i < found.paths.count; i++)
-        add_file(check, found.paths.items[i].ptr, path);
-    *count = found.paths.count;
-    return CLI_OK;
-}
-
-static int add_operand(struct check *check, int operand) {
-    struct cli *cli = check->cli;
-    const char *path = cli->operands[operand];
-    uint32_t count = 0;
-    int status = add_folder(check, path, &count);
-    if (status != CLI_OK || count)
-        return status;
-    cli_usage(cli, cli_operand_place(cli, operand), "there is no scene in the folder '%s'", path);
-    diag_help(&cli->sink,
-              "in a folder, the files named *.glint.yaml, *.glint.yml and *.glint.xml are scenes");
-    return CLI_USAGE;
-}
-
-static int add_operands(struct check *check) {
-    int worst = CLI_OK;
-    for (int i = 0; i < check->cli->operand_count; i++) {
-        int status = CLI_OK;
-        if (files_is_folder(str_from(check->cli->operands[i])))
-            status = add_operand(check, i);
-        else if (!check->changed)
-            add_file(check, check->cli->operands[i], NULL);
-        worst = status > worst ? status : worst;
-    }
-    return worst;
-}
-
-static bool is_scene_name(str path) {
-    for (const char *const *ending = endings; *ending; ending++)
-        if (str_ends_with_nocase(path, *ending))
-            return true;
-    return false;
-}
-
-// Scenes among the files that are named are checked wherever they are.
-static int add_changed(struct check *check) {
-    struct changed *changed = check->changed;
-    uint32_t count = 0;
-    int worst = changed->names_folders ? add_operands(check)
-                                       : add_folder(check, changed->searched.items[0].ptr, &count);
-    for (uint32_t i = 0; i < changed->named.count; i++)
-        if (is_scene_name(changed->named.items[i]))
-            add_file(check, changed->named.items[i].ptr, NULL);
-    return worst;
 }
 
 // ---- the report
@@ -275,9 +286,9 @@ static struct sums sum_up(const struct check *check) {
 }
 
 static void put_changed(const struct check *check, struct strbuf *out) {
-    if (check->files.count)
-        strbuf_format(out, "%u of %u scene%s read%s what changed", check->files.count, check->looked_at,
-                      check->looked_at == 1 ? "" : "s", check->files.count == 1 ? "s" : "");
+    if (check->first)
+        strbuf_format(out, "%u of %u scene%s read%s what changed", check->first, check->looked_at,
+                      check->looked_at == 1 ? "" : "s", check->first == 1 ? "s" : "");
     else
         strbuf_format(out, "none of %u scene%s reads what changed", check->looked_at,
                       check->looked_at == 1 ? "" : "s");
@@ -470,10 +481,16 @@ static int add_files(struct check *check, struct changed *changed) {
 static int check_files(struct check *check, int worst) {
     struct cli *cli = check->cli;
     bool good = make_stores(check);
+    scene_names_end(&check->names, &cli->arena);
     if (good)
         keep_affected(check);
+    add_others(check, true);
     int fixed = good && cli->options.fix ? fix_files(check) : CLI_OK;
     worst = fixed > worst ? fixed : worst;
+    if (good)
+        with_all(check, check_one);
+    check->first = check->files.count;
+    add_others(check, false);
     if (good)
         with_all(check, check_one);
     finish_stores(check);

@@ -1,15 +1,11 @@
 // glint format FILE...: scene files in canonical layout.
 #include "app/layout.h"
-#include "cli/cli.h"
+#include "cli/folder_scenes.h"
 #include "core/text_diff.h"
 #include "diag/diag_text.h"
-#include "files/files_walk.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
-
-static const char *const endings[] = {".glint.yaml", ".glint.yml", ".glint.xml", NULL};
 
 struct formatter {
     struct cli *cli;
@@ -87,15 +83,17 @@ static void format_file(struct formatter *f, const char *path, const char *folde
     layout_finish(&layout);
 }
 
-static void format_folder(struct formatter *f, const char *path) {
-    struct files_found found = {.arena = &f->cli->arena, .endings = endings};
-    if (files_walk(&found, str_from(path)) != FILE_OK) {
-        cli_error(f->cli, DIAG_FILE_UNREADABLE, found.unreadable.ptr, NULL, "the folder cannot be read: %s",
-                  strerror(errno));
-        worsen(f, CLI_FILE);
-    }
+static void format_folder(struct formatter *f, int operand) {
+    const char *path = f->cli->operands[operand];
+    struct scene_names found = {0};
+    const int status = cli_find_scenes(f->cli, path, &found);
+    worsen(f, status);
     for (uint32_t i = 0; i < found.paths.count; i++)
         format_file(f, found.paths.items[i].ptr, path);
+    if (status == CLI_OK && !found.paths.count)
+        worsen(f, cli_no_scene(f->cli, cli_operand_place(f->cli, operand), path, &found));
+    else
+        cli_tell_others(f->cli, &found);
 }
 
 int cmd_format(struct cli *cli) {
@@ -110,7 +108,7 @@ int cmd_format(struct cli *cli) {
         if (strcmp(path, "-") == 0)
             format_stream(&f);
         else if (files_is_folder(str_from(path)))
-            format_folder(&f, path);
+            format_folder(&f, i);
         else
             format_file(&f, path, NULL);
     }

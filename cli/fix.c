@@ -18,6 +18,8 @@ static void tell(struct strbuf *text, const struct fixed_file *file) {
     if (file->refused)
         strbuf_format(text, "%.*s: not changed: the fixes would make a file that cannot be read\n",
                       STR_ARG(file->path));
+    else if (file->is_new)
+        strbuf_format(text, "%.*s: created\n", STR_ARG(file->path));
     else
         strbuf_format(text, "%.*s: %u %s made\n", STR_ARG(file->path), file->changes,
                       file->changes == 1 ? "fix" : "fixes");
@@ -36,10 +38,11 @@ int cli_fix(struct cli *cli, const struct session_options *options, struct asset
         // A file that several scenes include is shown once; files that were written have no findings left to
         // fix.
         bool shown = cli->options.diff && is_done(cli, file->canonical);
-        bool changed = !str_equal(file->before, file->text);
+        bool changed = file->is_new || !str_equal(file->before, file->text);
         int written = CLI_OK;
         if (changed && cli->options.diff && !shown)
-            text_diff(file->path, file->before, file->path, file->text, patch);
+            text_diff(file->is_new ? STR("/dev/null") : file->path, file->before, file->path, file->text,
+                      patch);
         else if (changed && !cli->options.diff)
             written = cli_write(cli, path, file->text);
         status = written > status ? written : status;

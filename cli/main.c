@@ -19,10 +19,10 @@ static const struct cli_command commands[] = {
      "the\n"
      "picture is written to the current folder and named after the scene.\n\n"
      "  glint render scenes/showcase.glint.yaml\n"
-     "  glint render scene.xml -o picture.png --size 640x480 --samples 4\n"
-     "  glint render scene.yaml --set materials.glass.refractive_index=1.33 --stats\n"
-     "  glint render scene.yaml --sweep materials.glass.refractive_index=1.3:1.7:9 --montage\n"
-     "  glint render scene.yaml --frames 0..99 --set 'models[0].rotation.y={3.6*frame}' -o film.mp4\n",
+     "  glint render scene.glint.xml -o picture.png --size 640x480 --samples 4\n"
+     "  glint render scene.glint.yaml --set materials.glass.refractive_index=1.33 --stats\n"
+     "  glint render scene.glint.yaml --sweep materials.glass.refractive_index=1.3:1.7:9 --montage\n"
+     "  glint render scene.glint.yaml --frames 0..99 --set 'models[0].rotation.y={3.6*frame}' -o film.mp4\n",
      0, -1, cmd_render},
     {"view", "SCENE", "fly through a scene in a window, and see it change as its file is saved",
      "W A S D fly, E and Q go up and down, the wheel changes the speed. Drag with the left button to look\n"
@@ -60,14 +60,14 @@ static const struct cli_command commands[] = {
      "The extensions of IN and OUT (.yaml .yml .json, .xml) determine the spellings; with OUT '-' the\nother "
      "spelling is written to standard output. Comments before entries and includes are kept (JSON\nhas no "
      "comments). If OUT is in another folder, paths are changed to name the same files.\n\n  glint convert "
-     "scene.xml scene.yaml\n",
+     "scene.glint.xml scene.glint.yaml\n",
      2, 2, cmd_convert},
     {"import", "FILE", "make a scene of a glTF file (.glb, .gltf)",
      "Writes a scene with a model for each thing that the file shows, its cameras, its lights and its\n"
      "materials, and beside it the images that the file holds; meshes stay in the file. The scene renders\n"
      "as 'glint render FILE' does, and is there to be changed. Without -o it is written to the current\n"
      "folder and named after the file. Files that exist are kept. docs/gltf.md says what becomes of what.\n\n"
-     "  glint import car.glb -o scene.yaml\n",
+     "  glint import car.glb -o scene.glint.yaml\n",
      1, 1, cmd_import},
     {"deps", "SCENE...", "list every file that scenes read",
      "One path per line, each once: scene files, includes, meshes, their material files, the background.\n"
@@ -105,7 +105,7 @@ static const struct cli_command commands[] = {
      "for XML editors.\n"
      "markdown: the reference page. install: adds a line to scene files that tells editors where the\n"
      "schema is, and writes the schema into the same folder (or uses the one at --schema).\n\n"
-     "  glint schema install scene.yaml\n",
+     "  glint schema install scene.glint.yaml\n",
      1, -1, cmd_schema},
     {"explain", "[CODE|ELEMENT[.ATTRIBUTE]]", "explain a message's code or a part of the language",
      "With --list, one line for each code, or for each of a family. docs/codes.md is a page of all of "
@@ -141,8 +141,8 @@ static const struct cli_command commands[] = {
      "--samples-to, in any order. They must be of one scene, size and settings, and each pixel and sample\n"
      "must be there once. OUT has the same bytes as the picture that is rendered whole. With --frames, OUT\n"
      "and PARTs are names with %04d, and each frame is joined.\n\n"
-     "  glint render scene.yaml --tile 1/2 -o 1.part\n"
-     "  glint render scene.yaml --tile 2/2 -o 2.part\n"
+     "  glint render scene.glint.yaml --tile 1/2 -o 1.part\n"
+     "  glint render scene.glint.yaml --tile 2/2 -o 2.part\n"
      "  glint merge picture.png 1.part 2.part\n",
      2, -1, cmd_merge},
     {"farm", "slurm|parallel|k8s SCENE, or status DIR",
@@ -156,7 +156,7 @@ static const struct cli_command commands[] = {
      "done, failed and missing, and which command does the rest. --format of status is text or json; its "
      "exit\n"
      "status is 1 until all pictures are there.\n\n"
-     "  glint farm slurm scene.yaml --frames 0..499 --tiles 4 --folder farm -o 'out.%04d.png' \\\n"
+     "  glint farm slurm scene.glint.yaml --frames 0..499 --tiles 4 --folder farm -o 'out.%04d.png' \\\n"
      "      --set 'models[0].rotation.y={3.6*frame}'\n"
      "  sh farm/job.sh\n"
      "  glint farm status farm\n",
@@ -186,8 +186,8 @@ static const struct cli_command commands[] = {
      "double-precision reference. Marks the front of the settings worth choosing, and its knee; with\n"
      "--max-error and --max-time, names the settings to choose, as text to paste. --format is text, json\n"
      "or csv; -o writes a report with a plot and pictures. The exit status is 1 if no settings fit.\n\n"
-     "  glint tradeoff scene.yaml -o report.html\n"
-     "  glint tradeoff scene.yaml --max-error flip=0.02 --max-time 40\n",
+     "  glint tradeoff scene.glint.yaml -o report.html\n"
+     "  glint tradeoff scene.glint.yaml --max-error flip=0.02 --max-time 40\n",
      1, 1, cmd_tradeoff},
     {"devices", "", "list the devices that can render", "", 0, 0, cmd_devices},
     {"manual", "page|bash|zsh|fish [COMMAND]", "print a man page, or completions for a shell",

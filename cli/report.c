@@ -118,6 +118,20 @@ void cli_error(struct cli *cli, enum diag_code code, const char *path, const cha
     diag_sink_finish(&sink);
 }
 
+int cli_try_scene(struct cli *cli, const char *path) {
+    struct files files;
+    str nothing;
+    if (cli_is_stream(cli, path))
+        return CLI_OK;
+    files_init(&files, &cli->arena);
+    const enum file_status status = files_read(&files, str_from(path), 0, &cli->arena, &nothing);
+    if (status == FILE_OK || status == FILE_TOO_LARGE)
+        return CLI_OK;
+    cli_error(cli, session_file_code(status), path, NULL, "the scene file %s",
+              file_status_text(&files, status));
+    return CLI_FILE;
+}
+
 int cli_interrupted(struct cli *cli) {
     const int signal_number = interrupt_signal();
     cli_error(cli, DIAG_INTERRUPTED, cli->operands[0], NULL, "interrupted; nothing was written");

@@ -45,9 +45,9 @@ function(glint_test name)
   if(T_COST)
     set_tests_properties(${name} PROPERTIES COST ${T_COST})
   endif()
-  if(T_ENVIRONMENT)
-    set_tests_properties(${name} PROPERTIES ENVIRONMENT "${T_ENVIRONMENT}")
-  endif()
+  # Whether the sources are in a git work tree must not decide what a scene of a test may read.
+  set_tests_properties(${name} PROPERTIES ENVIRONMENT
+                       "GIT_CEILING_DIRECTORIES=${CMAKE_SOURCE_DIR}:${CMAKE_BINARY_DIR};${T_ENVIRONMENT}")
   if(T_RELEASE OR (T_BOTH AND NOT GLINT_SANITIZE))
     set_property(TEST ${name} APPEND PROPERTY LABELS release)
   endif()

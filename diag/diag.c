@@ -105,21 +105,30 @@ static struct diag *last(struct diag_sink *sink) {
     return sink->last_kept && sink->count > 0 ? &sink->items[sink->count - 1] : NULL;
 }
 
-void diag_note(struct diag_sink *sink, span at, const char *format, ...) {
-    struct diag *item = last(sink);
+static void add_note(struct diag_sink *sink, struct diag *item, span at, const char *format, va_list args) {
     struct diag_related *note = item ? arena_try_alloc(&sink->arena, sizeof *note) : NULL;
     if (!note)
         return;
     note->at = at;
-    va_list args;
-    va_start(args, format);
-    bool formatted = format_text(sink, &note->message, format, args);
-    va_end(args);
     struct diag_related **end = &item->notes;
     while (*end)
         end = &(*end)->next;
-    if (formatted)
+    if (format_text(sink, &note->message, format, args))
         *end = note;
+}
+
+void diag_note(struct diag_sink *sink, span at, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    add_note(sink, last(sink), at, format, args);
+    va_end(args);
+}
+
+void diag_note_to(struct diag_sink *sink, struct diag *item, span at, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    add_note(sink, item, at, format, args);
+    va_end(args);
 }
 
 void diag_help(struct diag_sink *sink, const char *format, ...) {
@@ -132,17 +141,30 @@ void diag_help(struct diag_sink *sink, const char *format, ...) {
     va_end(args);
 }
 
+static str copy_text(struct diag_sink *sink, str text) {
+    char *copy = arena_try_alloc(&sink->arena, text.len + 1);
+    if (copy && text.len)
+        memcpy(copy, text.ptr, text.len);
+    return copy ? (str){copy, text.len} : STR("");
+}
+
 void diag_fix(struct diag_sink *sink, bool safe, span at, str replacement) {
     struct diag *item = last(sink);
-    char *text = item ? arena_try_alloc(&sink->arena, replacement.len + 1) : NULL;
-    if (!text)
+    if (!item)
         return;
-    if (replacement.len)
-        memcpy(text, replacement.ptr, replacement.len);
-    item->has_fix = true;
+    item->fix_text = copy_text(sink, replacement);
+    item->has_fix = item->fix_text.len == replacement.len;
     item->fix_is_safe = safe;
     item->fix_at = at;
-    item->fix_text = (str){text, replacement.len};
+}
+
+void diag_fix_file(struct diag_sink *sink, bool safe, str path, str text) {
+    struct diag *item = last(sink);
+    if (!item)
+        return;
+    item->fix_file = copy_text(sink, path);
+    item->fix_text = copy_text(sink, text);
+    item->fix_is_safe = safe;
 }
 
 void diag_fix_part(struct diag_sink *sink, const struct source_set *sources, bool safe, str old,
@@ -263,6 +285,8 @@ static void copy_diag(struct diag_sink *into, const struct diag *d) {
         diag_help(into, "%.*s", STR_ARG(d->help));
     if (d->has_fix)
         diag_fix(into, d->fix_is_safe, d->fix_at, d->fix_text);
+    else if (d->fix_file.len)
+        diag_fix_file(into, d->fix_is_safe, d->fix_file, d->fix_text);
 }
 
 void diag_merge(struct diag_sink *into, const struct diag_sink *from) {

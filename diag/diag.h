@@ -62,6 +62,8 @@ struct diag {
     bool fix_is_safe; // the only possible meaning; else a suggestion
     span fix_at;
     str fix_text;
+    str fix_file; // if not empty: of a file that is not there, and that the fix creates with fix_text; no
+                  // has_fix
 };
 
 struct diag_sink {
@@ -98,8 +100,13 @@ bool diag_is_full(const struct diag_sink *sink);
 // Each of these adds to the diagnostic that was added last, or does nothing if that was dropped.
 void diag_note(struct diag_sink *sink, span at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+// As diag_note, for one that was added before.
+void diag_note_to(struct diag_sink *sink, struct diag *item, span at, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
 void diag_help(struct diag_sink *sink, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void diag_fix(struct diag_sink *sink, bool safe, span at, str replacement);
+// Another fix: a file that is created.
+void diag_fix_file(struct diag_sink *sink, bool safe, str path, str text);
 // As diag_fix, for the first place where `old` occurs in the text that the diagnostic is about; does nothing
 // if it does not occur there literally.
 void diag_fix_part(struct diag_sink *sink, const struct source_set *sources, bool safe, str old,

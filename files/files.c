@@ -4,6 +4,7 @@
 #include "core/nearest.h"
 #include "core/parallel.h"
 #include "files/folder.h"
+#include "files/work_tree.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -132,7 +133,7 @@ str files_find_config(struct files *files, str scene_path) {
     for (;;) {
         str marker = path_join(files->arena, above, STR(FILES_CONFIG_NAME));
         struct stat info;
-        if (stat(marker.ptr, &info) == 0 && S_ISREG(info.st_mode))
+        if ((stat(marker.ptr, &info) == 0 && S_ISREG(info.st_mode)) || find_overlay(files, marker))
             return marker;
         if (above.len <= 1)
             return STR("");
@@ -140,9 +141,14 @@ str files_find_config(struct files *files, str scene_path) {
     }
 }
 
-enum file_status files_add_scene_root(struct files *files, str scene_path) {
+str files_scene_root(struct files *files, str scene_path) {
     str config = files_find_config(files, scene_path);
-    return files_add_root(files, path_folder(config.len ? config : scene_path));
+    str tree = config.len ? STR("") : files_work_tree(files, scene_path);
+    return tree.len ? tree : path_folder(config.len ? config : scene_path);
+}
+
+enum file_status files_add_scene_root(struct files *files, str scene_path) {
+    return files_add_root(files, files_scene_root(files, scene_path));
 }
 
 static bool below_a_root(const struct files *files, str canonical) {

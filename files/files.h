@@ -60,8 +60,10 @@ enum file_status files_add_root(struct files *files, str directory);
 // counts.
 void files_add_overlay(struct files *files, str path, str text);
 #define FILES_CONFIG_NAME ".glintrc.yaml"
-// The scene's root: the folder of the nearest `.glintrc.yaml` at or above the scene's folder, else the
-// scene's folder. `scene_path` is as given by the user. On FILE_OK the root has been added.
+// The scene's root: the folder of the nearest `.glintrc.yaml` at or above the scene's folder, else the top of
+// the git work tree around it (work_tree.h), else the scene's folder. `scene_path` is as given by the user.
+str files_scene_root(struct files *files, str scene_path);
+// On FILE_OK that root has been added.
 enum file_status files_add_scene_root(struct files *files, str scene_path);
 
 // The nearest `.glintrc.yaml` at or above the folder of `scene_path`, absolute; the empty string if there is

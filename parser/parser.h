@@ -6,7 +6,7 @@
 // 2 bind      The file is an IR of its own. Each value is right by its row of the table; or it is reported,
 //             marked in ir_head.poisoned, and has its default.
 // 3 resolve   Every file that is included is read and bound, once. loader->order has each before the one that
-//             includes it; if one is missing, loader->incomplete is set.
+//             includes it; if one cannot be read, output->unread says where.
 // 4 merge     There is one scene. Lists are joined; of elements that are there once the including file's
 //             attributes win. The IR of each file stays in origin.files.
 // 5 override  The --set options are applied, in their order, and bound by the same rules.
@@ -47,6 +47,7 @@ struct parser_input {
 struct parser_output {
     struct ir_scene *scene;  // merged, resolved; with every poisoned value at its default
     struct ir_origin origin; // origin.files[0].scene is only the main file
+    span unread;             // the first include that could not be read; SPAN_NONE: all were
 };
 
 // Loads the source `main_source` (already read) and all that it includes.

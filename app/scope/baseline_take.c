@@ -79,11 +79,15 @@ static str key_of(struct taking *t, const struct diag *item) {
     return arena_copy(&t->session->arena, strbuf_view(&t->text));
 }
 
-// That the system failed is no mistake in the scene, and options are not in a file.
+// That the system failed is no mistake in the scene, and options are not in a file. Where an include cannot
+// be read, nobody knows what is wrong in it.
 static bool can_be_known(const struct taking *t, const struct diag *item) {
     const struct source_set *sources = &t->session->sources;
+    const span unread = t->session->unread;
     enum source_kind kind =
         item->at.source < sources->count ? sources->items[item->at.source].kind : SOURCE_KIND_DEFAULT;
+    if (!span_is_none(unread) && item->at.source == unread.source && item->at.begin == unread.begin)
+        return false;
     return item->severity != DIAG_NOTE && item->code != DIAG_OUT_OF_MEMORY &&
            item->code != DIAG_FILE_UNREADABLE && kind != SOURCE_KIND_DEFAULT && kind != SOURCE_KIND_OPTION;
 }

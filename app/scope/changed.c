@@ -53,13 +53,17 @@ static bool is_complete(const struct session *session) {
     return true;
 }
 
-static bool is_changed(const struct changed *changed, const struct inventory_use *use) {
+bool changed_holds(const struct changed *changed, str canonical) {
     str rest;
-    if (str_map_find(&changed->paths, use->canonical))
-        return true;
     for (uint32_t i = 0; i < changed->folders.count; i++)
-        if (path_is_below(use->canonical, changed->folders.items[i], &rest))
+        if (path_is_below(canonical, changed->folders.items[i], &rest))
             return true;
+    return str_map_find(&changed->paths, canonical) != 0;
+}
+
+static bool is_changed(const struct changed *changed, const struct inventory_use *use) {
+    if (changed_holds(changed, use->canonical))
+        return true;
     for (uint32_t i = 0; i < changed->gone.count; i++)
         if (str_equal(path_base(changed->gone.items[i]), path_base(use->canonical)))
             return true;

@@ -32,9 +32,11 @@ void changed_add(struct changed *changed, str path);
 // What the operands of --changed ask for: folders are searched, files changed, and so did all that git says
 // differs from a revision, if one is named or no file is (then from HEAD). The first operand is a revision if
 // there is no file of its name. Where no folder is named, the repository is searched, or, if git is not
-// asked, what is below the nearest settings, or below the current folder. false: git does not say what
+// asked, what is below the root that a scene in the current folder has. false: git does not say what
 // changed (changed->why, changed->operand).
 bool changed_find(struct changed *changed, char *const *operands, int count);
+// Whether a file is one of them.
+bool changed_holds(const struct changed *changed, str canonical);
 // Whether the scene reads one of them. `session` is loaded as `glint deps` loads it (session_load, images
 // without their pixels). A scene whose files cannot all be known counts: it, or what it names, cannot be
 // read. So does one that names a file of the same name as one that is gone, because another may now be in its

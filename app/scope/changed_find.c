@@ -20,10 +20,9 @@ static str folder_above(struct changed *changed, str top) {
 }
 
 static str root_folder(struct changed *changed, str top) {
-    str config = top.len ? STR("") : files_find_config(&changed->files, STR("./scene"));
-    if (config.len)
-        top = path_folder(config);
-    return top.len ? arena_copy(changed->arena, folder_above(changed, top)) : STR(".");
+    if (!top.len)
+        top = files_canonical(&changed->files, files_scene_root(&changed->files, STR("./scene")));
+    return arena_copy(changed->arena, folder_above(changed, top));
 }
 
 static bool ask_git(struct changed *changed, const char *revision, str *top) {

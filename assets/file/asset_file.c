@@ -1,5 +1,6 @@
 #include "assets/file/asset_file.h"
 
+#include "diag/diag_outside.h"
 #include "grammar/schema.h"
 
 #include <stdarg.h>
@@ -249,8 +250,7 @@ static void refuse(struct asset_file *file, str path, enum file_status status, u
     case FILE_OUTSIDE:
         asset_report_named(file, DIAG_FILE_OUTSIDE, "the %s '%.*s' lies outside the scene's folder: '%.*s'",
                            file->what, STR_ARG(path), STR_ARG(file->path));
-        diag_help(input->sink, "move it below the scene's folder, or allow its folder with --asset-path %.*s",
-                  STR_ARG(path_folder(file->path)));
+        diag_outside(input->sink, input->files, path, file->path);
         return;
     case FILE_NOT_REGULAR:
         asset_report_named(file, DIAG_FILE_NOT_REGULAR, "the %s '%.*s' is not a regular file", file->what,

@@ -46,6 +46,9 @@ struct batch_motion {
 };
 // batch_motion.c: reads only text, with the first frame's and the sweep's first values.
 struct batch_motion batch_motion_of(struct cli *cli, const char *scene, const str *sets, uint32_t set_count);
+// Whether the scene's text is right as it is in the file, without --set: CLI_OK, or an exit code with what is
+// wrong reported.
+int batch_judge_file(struct cli *cli, const char *scene);
 // Reports that there are no frames to be 'all'. An exit code.
 int batch_no_animation(struct cli *cli, const char *scene);
 // Where --frames is 'all', of one scene: says which they are, in the options. An exit code, as batch_plan.

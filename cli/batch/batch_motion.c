@@ -22,6 +22,19 @@ struct batch_motion batch_motion_of(struct cli *cli, const char *scene, const st
     return motion;
 }
 
+int batch_judge_file(struct cli *cli, const char *scene) {
+    struct session session;
+    struct session_options options = cli_session_options(cli, scene);
+    options.text_only = true;
+    options.set_count = 0;
+    session_load(&session, &options, NULL);
+    const int status = cli_session_status(&session);
+    if (status != CLI_OK)
+        cli_report(cli, &session, false);
+    session_finish(&session);
+    return status;
+}
+
 int batch_no_animation(struct cli *cli, const char *scene) {
     cli_usage(cli, cli->options.batch.frames_arg, "'%s' has no animation, and 'all' are its frames", scene);
     diag_help(&cli->sink, "say which frames: --frames 0..99");
@@ -34,6 +47,9 @@ int batch_take_all(struct cli *cli, const char *scene) {
         return CLI_OK;
     const struct batch_motion motion =
         batch_motion_of(cli, scene, cli->options.sets.items, cli->options.sets.count);
+    const int status = motion.is_good ? CLI_OK : batch_judge_file(cli, scene);
+    if (status != CLI_OK)
+        return status;
     if (!motion.is_animated && motion.is_good)
         return batch_no_animation(cli, scene);
     b->all_frames = false;

@@ -19,7 +19,8 @@ enum {
 struct scene_of {
     const char *path;
     bool is_animated;
-    int32_t last; // frame
+    bool is_broken; // nobody knows whether it moves
+    int32_t last;   // frame
 };
 
 struct scenes {
@@ -227,6 +228,8 @@ static int add_grid(struct batch *batch, const struct scenes *scenes) {
     str *values = ARENA_ARRAY(&cli->arena, str, (size_t)b->sweeps.count + 1);
     bool moves = false;
     for (uint32_t s = 0; s < scenes->count; s++)
+        moves |= scenes->items[s].is_broken;
+    for (uint32_t s = 0; s < scenes->count; s++)
         for (uint64_t cell = 0; cell < size; cell++) {
             uint64_t rest = cell; // the last sweep changes fastest
             for (uint32_t i = b->sweeps.count; i-- > 0; rest /= b->sweeps.items[i].values.count)
@@ -240,7 +243,8 @@ static int add_grid(struct batch *batch, const struct scenes *scenes) {
 
 // ---- the scenes' own animations
 
-static int take_motion(struct batch *batch, struct scene_of *scene) {
+// `is_only`: what is wrong in its file ends all; of several scenes, rendering reports it, and goes on.
+static int take_motion(struct batch *batch, struct scene_of *scene, bool is_only) {
     struct cli *cli = batch->cli;
     const struct cli_batch *b = &cli->options.batch;
     str *values = ARENA_ARRAY(&cli->arena, str, (size_t)b->sweeps.count + 1);
@@ -252,6 +256,10 @@ static int take_motion(struct batch *batch, struct scene_of *scene) {
         return CLI_USAGE;
     const struct batch_motion motion = batch_motion_of(cli, scene->path, job.sets, job.set_count);
     scene->is_animated = motion.is_animated;
+    scene->is_broken = !motion.is_good;
+    const int status = is_only && !motion.is_good ? batch_judge_file(cli, scene->path) : CLI_OK;
+    if (status != CLI_OK)
+        return status;
     if (motion.is_animated && b->fps == 0 && batch->fps == 0)
         batch->fps = motion.rate;
     if (b->all_frames && !motion.is_animated && motion.is_good)
@@ -271,7 +279,7 @@ static int take_motions(struct batch *batch, struct scenes *scenes) {
     for (uint32_t i = 0; i < scenes->count && status == CLI_OK; i++) {
         scenes->items[i].last = b->last_frame;
         if (b->has_frames)
-            status = take_motion(batch, &scenes->items[i]);
+            status = take_motion(batch, &scenes->items[i], scenes->count == 1);
     }
     batch->fps = b->fps > 0 ? b->fps : batch->fps > 0 ? batch->fps : 25;
     return status;

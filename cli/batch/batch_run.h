@@ -66,6 +66,7 @@ struct batch_run {
     struct live_loaded pending; // read, and not yet shown: --skip-done may need nothing of it
     struct batch_counts counts;
     const struct batch_job *first_failed;
+    int worst; // exit code of those that failed
     // Findings that were told: of which scene, load, and how many.
     const char *told_scene;
     uint32_t told_load, told_count;

@@ -261,6 +261,11 @@ static int trace(struct batch_run *run, const struct batch_job *job, struct batc
     return run->live.session->sink.errors > errors ? CLI_SCENE : CLI_OK;
 }
 
+static int broken_status(struct batch_run *run) {
+    const struct session *session = live_findings(&run->live);
+    return session && session->state == SESSION_UNREADABLE ? cli_session_status(session) : CLI_SCENE;
+}
+
 static int render_one(struct batch_run *run, uint32_t number, struct batch_made *made) {
     const struct batch_job *job = &run->batch.jobs.items[number];
     const uint32_t count = run->batch.jobs.count;
@@ -278,7 +283,7 @@ static int render_one(struct batch_run *run, uint32_t number, struct batch_made 
         progress_end(&run->progress);
         return cli_device_failed(run->cli, run->gpu);
     }
-    const int status = state == LIVE_SHOWN ? trace(run, job, made) : CLI_SCENE;
+    const int status = state == LIVE_SHOWN ? trace(run, job, made) : broken_status(run);
     tell_findings(run, job, status != CLI_OK);
     // A picture with faulty pixels is written, and failed: as by itself.
     made->is_faulty = status != CLI_OK;
@@ -300,6 +305,7 @@ static int note_failure(struct batch_run *run, const struct batch_job *job, int 
         return status;
     run->first_failed = run->first_failed ? run->first_failed : job;
     run->counts.failed++;
+    run->worst = status > run->worst ? status : run->worst;
     progress_end(&run->progress);
     batch_tell_failure(run, job);
     return status;
@@ -344,7 +350,7 @@ static int finish(struct batch_run *run, int status) {
     if (last == CLI_OK || run->counts.failed)
         batch_tell(run);
     const int told = batch_stats(run);
-    return status != CLI_OK ? status : run->counts.failed ? CLI_SCENE : last != CLI_OK ? last : told;
+    return status != CLI_OK ? status : run->counts.failed ? run->worst : last != CLI_OK ? last : told;
 }
 
 static int run_batch(struct batch_run *run) {

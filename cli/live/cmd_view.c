@@ -133,6 +133,9 @@ int cmd_view(struct cli *cli) {
     if (!image_format_of_path(str_from(v.output), IMAGE_WRITTEN, &v.format))
         return cli_usage(cli, cli->options.output_arg, "the output '%s' must end in " IMAGE_WRITTEN_ENDINGS,
                          v.output);
+    status = cli_try_scene(cli, cli->operands[0]);
+    if (status != CLI_OK)
+        return status;
     interrupt_catch();
     const uint32_t width = cli->options.width ? (uint32_t)cli->options.width : FIRST_WIDTH;
     const uint32_t height = cli->options.height ? (uint32_t)cli->options.height : FIRST_HEIGHT;

@@ -1,5 +1,6 @@
 // Which pictures there are to test: those that glint-test.yaml names, and the scenes of the folder, each with
 // the picture of its name.
+#include "cli/folder_scenes.h"
 #include "cli/test/test.h"
 
 #include "core/nearest.h"
@@ -7,7 +8,6 @@
 #include "files/files_walk.h"
 #include "files/glob.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,7 +15,6 @@ enum {
     FILE_BYTES_MAX = 1 << 20,
 };
 
-static const char *const scene_endings[] = {".glint.yaml", ".glint.yml", ".glint.xml", NULL};
 // The first that is there is the reference; a new one has the first.
 static const char *const picture_endings[] = {".png", ".exr", ".hdr", ".pfm", ".jpg", ".jpeg", NULL};
 
@@ -87,17 +86,27 @@ static int report(struct test_run *run, enum diag_code code, span at, str messag
 struct plan {
     struct test_run *run;
     struct str_map stems; // 1 + place in `run->cases`
+    struct scene_names names;
 };
+
+static str shown_in_folder(const struct test_run *run, str path) {
+    return str_slice(path, str_equal(run->folder, STR(".")) ? 0 : run->folder.len + 1, path.len);
+}
+
+static bool is_skipped(const struct test_run *run, str path) {
+    for (uint32_t i = 0; i < run->file.skip.count; i++)
+        if (glob_match(run->file.skip.items[i], shown_in_folder(run, path)))
+            return true;
+    return false;
+}
 
 // A scene in both spellings is one: YAML is rendered.
 static void add_scene(struct plan *plan, str path) {
     struct test_run *run = plan->run;
-    const size_t skip = str_equal(run->folder, STR(".")) ? 0 : run->folder.len + 1;
-    const str shown = str_slice(path, skip, path.len);
-    for (uint32_t i = 0; i < run->file.skip.count; i++)
-        if (glob_match(run->file.skip.items[i], shown))
-            return;
-    const str name = arena_copy(&run->cli->arena, without_ending(shown, scene_endings));
+    const str shown = shown_in_folder(run, path);
+    if (is_skipped(run, path))
+        return;
+    const str name = arena_copy(&run->cli->arena, without_ending(shown, scene_name_endings));
     uint32_t *place = str_map_at(&plan->stems, name);
     if (!*place) {
         struct test_case *test = ARENA_PUSH(&run->cli->arena, &run->cases);
@@ -110,15 +119,10 @@ static void add_scene(struct plan *plan, str path) {
 
 static int find_scenes(struct plan *plan) {
     struct test_run *run = plan->run;
-    struct files_found found = {.arena = &run->cli->arena, .endings = scene_endings};
-    if (files_walk(&found, run->folder) != FILE_OK) {
-        cli_error(run->cli, DIAG_FILE_UNREADABLE, found.unreadable.ptr, NULL, "the folder cannot be read: %s",
-                  strerror(errno));
-        return CLI_FILE;
-    }
-    for (uint32_t i = 0; i < found.paths.count; i++)
-        add_scene(plan, found.paths.items[i]);
-    return CLI_OK;
+    const int status = cli_find_scenes(run->cli, run->folder.ptr, &plan->names);
+    for (uint32_t i = 0; i < plan->names.paths.count; i++)
+        add_scene(plan, plan->names.paths.items[i]);
+    return status;
 }
 
 // ---- their pictures
@@ -357,6 +361,20 @@ static void find_unused(struct test_run *run) {
             *(str *)ARENA_PUSH(&cli->arena, &run->unused) = found.paths.items[i];
 }
 
+// Scenes that are tested only if the file names them, and it does not.
+static void tell_others(struct plan *plan) {
+    struct scene_names *names = &plan->names;
+    struct test_run *run = plan->run;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < names->others.count; i++)
+        if (!is_skipped(run, names->others.items[i].path))
+            names->others.items[kept++] = names->others.items[i];
+    names->others.count = kept;
+    for (uint32_t i = 0; i < run->cases.count; i++)
+        *(str *)ARENA_PUSH(&run->cli->arena, &names->paths) = run->cases.items[i].scene;
+    cli_tell_others(run->cli, names);
+}
+
 static int judge_folder(struct test_run *run) {
     struct cli *cli = run->cli;
     if (files_is_folder(run->folder))
@@ -368,7 +386,7 @@ static int judge_folder(struct test_run *run) {
     if (is_file)
         diag_help(&cli->sink, "test its folder, and only this: glint test %.*s --only %.*s",
                   STR_ARG(path_folder(run->folder)),
-                  STR_ARG(without_ending(path_base(run->folder), scene_endings)));
+                  STR_ARG(without_ending(path_base(run->folder), scene_name_endings)));
     return status;
 }
 
@@ -388,13 +406,12 @@ int test_plan(struct test_run *run) {
     if (status == CLI_OK)
         status = add_entries(&plan);
     if (status == CLI_OK && run->cases.count == 0) {
-        status = cli_usage(cli, cli_operand_place(cli, 0), "there is no scene to test in the folder '%s'",
-                           run->folder.ptr);
-        diag_help(&cli->sink,
-                  "in a folder, the files named *.glint.yaml, *.glint.yml and *.glint.xml are scenes");
+        status = cli_no_scene(cli, cli_operand_place(cli, 0), run->folder.ptr, &plan.names);
     }
     if (status == CLI_OK)
         status = judge_doubles(run);
+    if (status == CLI_OK && !cli->options.test.only)
+        tell_others(&plan);
     if (status == CLI_OK)
         find_unused(run);
     if (status == CLI_OK)

@@ -38,7 +38,7 @@ struct loader {
         uint32_t count;
         span first;
     } refused;       // includes beyond the limit of files
-    bool incomplete; // something that may define names was not read: unknown names may follow from it
+    bool incomplete; // a file was not read to its end, or includes are not known: names may be in the rest
 };
 
 // loader.c
@@ -48,6 +48,8 @@ uint32_t loader_add_file(struct loader *loader, uint32_t source, uint32_t parent
 // resolve.c
 // Reads all that loader->files[file] includes.
 void resolve_includes(struct loader *loader, uint32_t file);
+// Adds a note where the first include that could not be read is reported.
+void resolve_note_unread(struct loader *loader, span at, str message);
 // Says for each included file, at its first diagnostic, where it is included.
 void resolve_note_includes(struct loader *loader);
 

@@ -134,7 +134,27 @@ struct resolving {
     struct mend_search searches[SEARCHES_MAX];
     uint32_t search_count;
     struct str_map searched; // 1 + index in `searches`, by name
+    struct str_map unread;   // names that may be in an include that could not be read
 };
+
+enum {
+    UNREAD_SHOWN = 5,
+};
+
+// A name that is like none in the files that were read is in the one that was not, as far as can be told: a
+// note of that says so, once for each name.
+static void note_may_be_unread(struct resolving *resolving, const char *what, span at, str name) {
+    struct loader *loader = resolving->loader;
+    if (resolving->unread.count > UNREAD_SHOWN || str_map_find(&resolving->unread, name))
+        return;
+    *str_map_at(&resolving->unread, name) = 1;
+    const bool is_last = resolving->unread.count > UNREAD_SHOWN;
+    resolve_note_unread(loader, at,
+                        arena_format(&loader->scratch,
+                                     is_last ? "so are others from here on"
+                                             : "the %s '%.*s' is not in the files that were read",
+                                     what, STR_ARG(say_text(&loader->scratch, name))));
+}
 
 static const struct named *find(const struct named_list *list, str name) {
     uint32_t found = str_map_find(&list->by_name, name);
@@ -185,18 +205,26 @@ static void report_unknown(struct resolving *resolving, const struct named_list 
     struct diag_sink *sink = loader->input->sink;
     const struct schema_row *row = &place.schema->rows[place.row];
     span at = ir_place_value(&loader->output->origin, place.memory, place.schema, row->name);
+    const span unread = loader->output->unread;
+    const struct mend_search *search = diag_is_full(sink) ? NULL : search_for(resolving, list, name);
+    if (!span_is_none(unread) && (!search || !search->best)) {
+        note_may_be_unread(resolving, row->child->name, at, name);
+        return;
+    }
     diag_add(sink, DIAG_UNKNOWN_MATERIAL, at, "there is no %s '%.*s'", row->child->name,
              STR_ARG(say_text(&loader->scratch, name)));
     if (diag_is_full(sink))
         return;
-    const struct mend_search *search = search_for(resolving, list, name);
     if (!search || !search->best) {
         list_names(loader, list, row->child->name);
         return;
     }
+    if (!span_is_none(unread))
+        diag_note(sink, unread, "unless it is in this file, which could not be read");
     diag_help(sink, "did you mean '%s'?", search->best);
     str written = source_text(loader->input->sources, at);
-    diag_fix(sink, mend_is_safe(search), at, mend_like(&loader->scratch, written, str_from(search->best)));
+    diag_fix(sink, mend_is_safe(search) && span_is_none(unread), at,
+             mend_like(&loader->scratch, written, str_from(search->best)));
 }
 
 static void resolve(void *context, struct visit_place place, struct ir_material_ref *reference) {
@@ -218,33 +246,46 @@ static bool is_body(const struct named *named) {
     return named && named->schema != &SCHEMA_LIGHT;
 }
 
+static void report_focus(struct resolving *resolving, struct named_list *things, span at, str name) {
+    struct loader *loader = resolving->loader;
+    struct diag_sink *sink = loader->input->sink;
+    const span unread = loader->output->unread;
+    const bool is_light = find(things, name) != NULL;
+    struct mend_search search = mend_begin(&loader->scratch, name);
+    for (uint32_t k = 0; k < things->count; k++)
+        if (is_body(&things->items[k]))
+            mend_offer_str(&search, things->items[k].name, (int)k);
+    if (!span_is_none(unread) && !is_light && !search.best) {
+        note_may_be_unread(resolving, "body", at, name);
+        return;
+    }
+    diag_add(sink, DIAG_UNKNOWN_BODY, at,
+             is_light ? "'%.*s' is a light, not a body" : "there is no body '%.*s'",
+             STR_ARG(say_text(&loader->scratch, name)));
+    if (!span_is_none(unread) && !is_light)
+        diag_note(sink, unread, "unless it is in this file, which could not be read");
+    if (search.best) {
+        diag_help(sink, "did you mean '%s'?", search.best);
+        const str written = source_text(loader->input->sources, at);
+        diag_fix(sink, mend_is_safe(&search) && span_is_none(unread), at,
+                 mend_like(&loader->scratch, written, str_from(search.best)));
+    } else {
+        diag_help(sink, "give the body this name, or write 'focus_at', a point");
+    }
+}
+
 // Bodies that cameras are focused on.
 static void find_focus(struct resolving *resolving, struct named_list *things) {
-    struct loader *loader = resolving->loader;
     const struct ir_scene *scene = resolving->scene;
+    const struct ir_origin *origin = &resolving->loader->output->origin;
     const int row = schema_find_row(&SCHEMA_CAMERA, STR("focus_on"));
-    bool incomplete = loader->incomplete || scene->head.poisoned != 0;
+    bool incomplete = resolving->loader->incomplete || scene->head.poisoned != 0;
     for (uint32_t i = 0; i < scene->cameras.count && !incomplete; i++) {
         const struct ir_camera *camera = &scene->cameras.items[i];
         const str name = camera->focus_on;
-        if (name.len == 0 || (camera->head.poisoned & bind_bit((uint32_t)row)) || is_body(find(things, name)))
-            continue;
-        struct mend_search search = mend_begin(&loader->scratch, name);
-        const span at = ir_place_value(&loader->output->origin, &camera->head, &SCHEMA_CAMERA, "focus_on");
-        diag_add(loader->input->sink, DIAG_UNKNOWN_BODY, at,
-                 find(things, name) ? "'%.*s' is a light, not a body" : "there is no body '%.*s'",
-                 STR_ARG(say_text(&loader->scratch, name)));
-        for (uint32_t k = 0; k < things->count; k++)
-            if (is_body(&things->items[k]))
-                mend_offer_str(&search, things->items[k].name, (int)k);
-        if (search.best) {
-            diag_help(loader->input->sink, "did you mean '%s'?", search.best);
-            const str written = source_text(loader->input->sources, at);
-            diag_fix(loader->input->sink, mend_is_safe(&search), at,
-                     mend_like(&loader->scratch, written, str_from(search.best)));
-        } else {
-            diag_help(loader->input->sink, "give the body this name, or write 'focus_at', a point");
-        }
+        if (name.len && !(camera->head.poisoned & bind_bit((uint32_t)row)) && !is_body(find(things, name)))
+            report_focus(resolving, things, ir_place_value(origin, &camera->head, &SCHEMA_CAMERA, "focus_on"),
+                         name);
     }
 }
 
@@ -254,6 +295,7 @@ void names_resolve(struct loader *loader, struct ir_scene *scene) {
         .scene = scene,
         .by_row = ARENA_ARRAY(&loader->scratch, struct named_list, SCHEMA_SCENE.row_count)};
     str_map_init(&resolving.searched, &loader->scratch);
+    str_map_init(&resolving.unread, &loader->scratch);
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
         const struct schema_row *row = &SCHEMA_SCENE.rows[i];
         if (row->kind != SCHEMA_LIST || row->many != SCHEMA_NAMED_MAP)

@@ -1,4 +1,5 @@
 // Includes: which files belong to the scene, in which order, and why one cannot be read.
+#include "diag/diag_outside.h"
 #include "grammar/ir.h"
 #include "parser/stages/loader.h"
 #include "parser/tree/reader_text.h"
@@ -26,9 +27,14 @@ static void report_missing(struct loader *loader, span at, str path, str tried) 
     }
 }
 
+static void note_unread(struct loader *loader, span at) {
+    if (span_is_none(loader->output->unread))
+        loader->output->unread = at;
+}
+
 static void refuse(struct loader *loader, span at, str path, str tried, enum file_status status) {
     struct diag_sink *sink = loader->input->sink;
-    loader->incomplete = true;
+    note_unread(loader, at);
     switch (status) {
     case FILE_MISSING:
         report_missing(loader, at, path, tried);
@@ -37,8 +43,7 @@ static void refuse(struct loader *loader, span at, str path, str tried, enum fil
         diag_add(sink, DIAG_FILE_OUTSIDE, at,
                  "the included file '%.*s' lies outside the scene's folder: '%.*s'", STR_ARG(path),
                  STR_ARG(tried));
-        diag_help(sink, "move it below the scene's folder, or allow its folder with --asset-path %.*s",
-                  STR_ARG(path_folder(tried)));
+        diag_outside(sink, loader->input->files, path, tried);
         return;
     case FILE_NOT_REGULAR:
         diag_add(sink, DIAG_FILE_NOT_REGULAR, at, "the included file '%.*s' is not a regular file",
@@ -70,7 +75,7 @@ static bool is_other_kind(struct loader *loader, span at, str path) {
     diag_add(loader->input->sink, DIAG_FILE_KIND, at, "'%.*s' is not a scene file", STR_ARG(path));
     diag_help(loader->input->sink, "scene files end in .yaml, .yml, .json or .xml; a mesh belongs in "
                                    "'mesh' of a model, an image in 'image' of the background");
-    loader->incomplete = true;
+    note_unread(loader, at);
     return true;
 }
 
@@ -119,7 +124,8 @@ static bool is_new(struct loader *loader, uint32_t from, str tried, span at) {
                      "the chain of includes is too long");
     else if (too_many && loader->refused.count++ == 0)
         loader->refused.first = at;
-    loader->incomplete = loader->incomplete || too_deep || too_many;
+    if (too_deep || too_many)
+        note_unread(loader, at);
     return !too_deep && !too_many;
 }
 
@@ -177,6 +183,18 @@ void resolve_includes(struct loader *loader, uint32_t file) {
 
 // Notes.
 
+void resolve_note_unread(struct loader *loader, span at, str message) {
+    struct diag_sink *sink = loader->input->sink;
+    for (uint32_t i = 0; i < sink->count; i++) {
+        const span there = sink->items[i].at, unread = loader->output->unread;
+        if (there.source == unread.source && there.begin == unread.begin &&
+            sink->items[i].severity == DIAG_ERROR) {
+            diag_note_to(sink, &sink->items[i], at, "%.*s", STR_ARG(message));
+            return;
+        }
+    }
+}
+
 static struct diag *first_diag(struct diag_sink *sink, uint32_t source) {
     struct diag *first = NULL;
     for (uint32_t i = 0; i < sink->count; i++) {
@@ -193,16 +211,7 @@ void resolve_note_includes(struct loader *loader) {
         struct diag *d = first_diag(sink, loader->files.items[i].source);
         if (!d || d->code == DIAG_INCLUDE_CYCLE) // which shows its own chain
             continue;
-        struct diag_related **end = &d->notes;
-        while (*end)
-            end = &(*end)->next;
-        for (uint32_t f = i; f != 0; f = loader->files.items[f].parent) {
-            *end = arena_try_alloc(&sink->arena, sizeof **end);
-            if (!*end)
-                return;
-            **end =
-                (struct diag_related){.at = loader->files.items[f].include, .message = STR("included here")};
-            end = &(*end)->next;
-        }
+        for (uint32_t f = i; f != 0; f = loader->files.items[f].parent)
+            diag_note_to(sink, d, loader->files.items[f].include, "included here");
     }
 }

@@ -149,6 +149,6 @@ expect "is renewed" 0 '^wrote    hall' - "$glint" test scenes --bless
 expect "a scene instead of a folder" 2 - "glint test scenes --only hall" "$glint" test scenes/hall.glint.yaml
 expect "no folder" 2 - "there is no folder 'none'" "$glint" test none
 mkdir empty
-expect "a folder without scenes" 2 - "there is no scene to test" "$glint" test empty
+expect "a folder without scenes" 2 - "there is no scene in the folder" "$glint" test empty
 expect "a page that cannot be written" 3 - "none/report.html:1:1: error" "$glint" test scenes --html none/report.html
 exit $failed

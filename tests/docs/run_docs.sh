@@ -54,10 +54,10 @@ END
         cp "$source/tests/fuzz/seeds/ply/text.ply" statue.ply
         cp "$source/tests/data/image/progressive.jpg" sky.jpg
         cp sky.jpg wood.jpg
-        cp scene.yaml old.yaml
-        sed 's/refractive_index: 1.5/refractive_index: 1.33/' old.yaml >new.yaml
-        [ "$what" = scenes ] || ../bin/glint render scene.yaml --quiet --device reference -o reference.png
-        "$glint" convert scene.yaml scene.xml && "$glint" convert new.yaml new.xml
+        cp scene.glint.yaml old.glint.yaml
+        sed 's/refractive_index: 1.5/refractive_index: 1.33/' old.glint.yaml >new.glint.yaml
+        [ "$what" = scenes ] || ../bin/glint render scene.glint.yaml --quiet --device reference -o reference.png
+        "$glint" convert scene.glint.yaml scene.glint.xml && "$glint" convert new.glint.yaml new.glint.xml
     ) || exit 2
 }
 
@@ -98,7 +98,7 @@ check_scene() {
 check_settings() {
     mkdir -p play/textures play/meshes
     cp "$text" play/.glintrc.yaml
-    if "$glint" check play/scene.yaml >said.txt 2>&1; then
+    if "$glint" check play/scene.glint.yaml >said.txt 2>&1; then
         pass "$place: settings"
     else
         fail "$place: settings"

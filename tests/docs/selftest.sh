@@ -35,17 +35,17 @@ block yaml "$(cat unused.txt; echo 'spheres: [{center: [0, 0, -9], radius: 1}]')
 (mark 'not a scene: a list'; block yaml '- 1') | page 0 'not a scene'
 (mark 'from scenes/tutorial/step-1.glint.yaml'; block yaml 'glint: 1') | page 0 'from a file'
 (mark 'from scenes/tutorial/step-1.glint.yaml'; block yaml 'glint: 2') | page 1 'not from that file'
-block sh 'glint check scene.yaml' | page 0 'a command'
-block sh 'glint check scene.xml && glint chekc scene.yaml' | page 1 'a wrong command'
-block sh 'rm scene.yaml' | page 1 'a command of another program'
-(mark 'not run: it removes'; block sh 'rm scene.yaml') | page 0 'a command that is left out'
-(mark 'not run "rm": it removes'; block sh 'rm scene.yaml
-glint check scene.yaml') | page 0 'one of two commands that is left out'
-(mark 'not run "rm": it removes'; block sh 'rm scene.yaml
+block sh 'glint check scene.glint.yaml' | page 0 'a command'
+block sh 'glint check scene.glint.xml && glint chekc scene.glint.yaml' | page 1 'a wrong command'
+block sh 'rm scene.glint.yaml' | page 1 'a command of another program'
+(mark 'not run: it removes'; block sh 'rm scene.glint.yaml') | page 0 'a command that is left out'
+(mark 'not run "rm": it removes'; block sh 'rm scene.glint.yaml
+glint check scene.glint.yaml') | page 0 'one of two commands that is left out'
+(mark 'not run "rm": it removes'; block sh 'rm scene.glint.yaml
 glint check none.yaml') | page 1 'the other of the two'
-(mark 'status 3 "glint check none"'; block sh 'glint check scene.yaml
+(mark 'status 3 "glint check none"'; block sh 'glint check scene.glint.yaml
 glint check none.yaml') | page 0 'an expected status'
-(mark 'status 3'; block sh 'glint check scene.yaml') | page 1 'another status'
+(mark 'status 3'; block sh 'glint check scene.glint.yaml') | page 1 'another status'
 (mark 'file ball.yaml'; block yaml 'glint: 1'; block sh 'glint check ball.yaml') | page 0 'a file of the page'
 (mark 'printed by echo glint'; block '' 'glint') | page 0 'as printed'
 (mark 'printed by echo glint'; block '' 'gloss') | page 1 'not as printed'

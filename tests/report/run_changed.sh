@@ -36,7 +36,8 @@ ok "reports hold those scenes only" sh -c 'grep -q mesh.glint.yaml only.json && 
 tells "in a folder" 0 '^glint: none of 1 scene reads' sh -c "mkdir -p other && cp scenes/alone.glint.yaml other && '$glint' check --changed lib/sky.png other"
 rm -r other
 cp scenes/gold1.glint.yaml gold4.yaml
-tells "a file of another name is no scene" 0 '^glint: none of 6' changed gold4.yaml
+tells "a file of another name is a scene, if it is named" 1 '^glint: 1 of 7 scenes reads what changed: 1 error$' changed gold4.yaml
+ok "and read" grep -q '^gold4.yaml:2:' out.txt
 rm gold4.yaml
 
 # ---- a material is renamed
@@ -108,7 +109,7 @@ sed -i 's/metals/alloys/' scenes/gold1.glint.yaml
 tells "a renamed include" 1 '^glint: 3 of 6 scenes read what changed: [2-9] errors' changed
 git reset -q --hard
 rm .glintrc.yaml
-tells "settings that are gone" 1 '^glint: 6 of 6 scenes' changed
+tells "settings that are gone" 0 '^glint: 6 of 6 scenes' changed
 git reset -q --hard
 git rm -q lib/three.mtl
 tells "a deleted material file" 0 'W601' changed

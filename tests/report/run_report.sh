@@ -173,14 +173,14 @@ for name in tree/b/2.glint.yaml tree/a/1.glint.yaml tree/3.glint.xml tree/.hidde
 done
 printf '<Scene glint="1"><Sphere radius="1"/></Scene>\n' >tree/3.glint.xml
 "$glint" check tree >/dev/null 2>order.txt
-printf '%s\n' tree/3.glint.xml tree/a/1.glint.yaml tree/a/6.glint.yml tree/b/2.glint.yaml >wanted.txt
+printf '%s\n' tree/3.glint.xml tree/a/1.glint.yaml tree/a/6.glint.yml tree/b/2.glint.yaml tree/5.yaml >wanted.txt
 grep -oE '^tree[^:]*' order.txt | uniq >places.txt
 ok "a folder's scenes, in order" cmp places.txt wanted.txt
 "$glint" check tree >/dev/null 2>again.txt
 ok "the order is stable" cmp order.txt again.txt
 command -v taskset >/dev/null && taskset -c 0 "$glint" check tree 2>alone.txt
 [ ! -e alone.txt ] || ok "one processor says the same" cmp order.txt alone.txt
-"$glint" check tree $(cut -d: -f1 places.txt) >/dev/null 2>again.txt
+"$glint" check tree $(grep -v 5.yaml places.txt | cut -d: -f1) >/dev/null 2>again.txt
 ok "a scene that is named twice is checked once" cmp order.txt again.txt
 # What a link leads to is read only where the scene may read it anyway; else not one word of it is shown.
 mkdir -p outside links/in/deep

@@ -62,7 +62,7 @@ export interface Result {
   err: string;
 }
 
-/** Any command: run(['convert', 'scene.yaml', '-'], {'scene.yaml': text}). Files that it writes are gone with it. */
+/** Any command: run(['convert', 'scene.glint.yaml', '-'], {'scene.glint.yaml': text}). Files that it writes are gone with it. */
 export function run(words: string[], files?: Files): Promise<Result>;
 
 export interface Server {
