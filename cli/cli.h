@@ -23,6 +23,7 @@ enum cli_exit {
     CLI_USAGE = 2,
     CLI_FILE = 3,     // the scene file cannot be read, an output cannot be written, or memory ran out
     CLI_DEVICE = 4,   // no usable device
+    CLI_REFUSED = 5,  // what a file named is outside its folder, or --untrusted does not allow what is needed
     CLI_STOPPED = 75, // by a signal, and a checkpoint is there to go on from (EX_TEMPFAIL of sysexits.h)
     CLI_INTERRUPTED = 130,
     CLI_PIPE = 141, // who read standard output has closed it, as if by SIGPIPE
@@ -103,6 +104,7 @@ struct cli_options {
     bool list;
     bool watch;
     bool force; // overwrite
+    bool trust_record;
     bool changed;
     int changed_arg;            // as output_arg
     const char *baseline;       // NULL: not given
@@ -137,6 +139,9 @@ struct cli {
     int operand_count;
     struct cli_stream stream;
     struct cli_list fixed; // files whose fixes were shown
+    str named_in;          // the folder of a file that names what is read: nothing outside is; empty: there is none
+    bool names_scene;      // it names the scene, too
+    uint32_t named_asset_paths; // how many of the last of options.asset_paths it names
 };
 
 struct cli_command {
@@ -243,6 +248,8 @@ int cli_write(struct cli *cli, const char *path, str bytes);
 // The same for what was made in memory, called `what` in messages: if memory ran out, CLI_SCENE with an error
 // printed.
 int cli_write_made(struct cli *cli, const char *path, const struct strbuf *made, const char *what);
+// The same for a file that something other than the user has named: below a root (files.h). CLI_REFUSED otherwise.
+int cli_write_named(struct cli *cli, struct files *files, str path, str bytes);
 // Whether the output can be made at all, which is better known before long work than after it: CLI_OK, or
 // CLI_FILE with an error printed. NULL: there is none.
 int cli_try_output(struct cli *cli, const char *path);

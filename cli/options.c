@@ -53,6 +53,7 @@ enum option_id {
     OPTION_COLOR,
     OPTION_ALLOW_RESOLUTION,
     OPTION_FORCE,
+    OPTION_TRUST_RECORD,
     OPTION_DEPTH,
     OPTION_QUALITY,
     OPTION_COMPRESSION,
@@ -108,6 +109,9 @@ static const struct option_row rows[] = {
     {OPTION_OUTPUT, "output", 'o', "FILE", "import",
      "write the scene to FILE (.yaml .yml .json .xml); '-' writes YAML to standard output, and no images"},
     {OPTION_FORCE, "force", 0, NULL, "import farm", "overwrite files that exist"},
+    {OPTION_FORCE, "force", 0, NULL, "test", "let --bless replace files that are not pictures"},
+    {OPTION_TRUST_RECORD, "trust-record", 0, NULL, "verify",
+     "read the scene and the folders that the picture names wherever they are, and not only below its own folder"},
     {OPTION_SIZE, "size", 0, "WxH", "render view inspect pick tradeoff extremes farm",
      "size of the picture in pixels, instead of the scene's"},
     {OPTION_SAMPLES, "samples", 0, "N", "render view inspect tradeoff farm",
@@ -289,6 +293,8 @@ static bool *flag_of(struct cli_options *options, int id) {
         return &options->list;
     case OPTION_FORCE:
         return &options->force;
+    case OPTION_TRUST_RECORD:
+        return &options->trust_record;
     case OPTION_CHANGED:
         return &options->changed;
     case OPTION_AS_FILE:

@@ -213,7 +213,7 @@ static int begin_ffmpeg(struct film *film) {
     film->temporary = temporary_name(film->path);
     if (!film->temporary)
         return cannot_write(film, ENOMEM);
-    const int fd = temporary_create(&film->entry, film->temporary);
+    const int fd = temporary_create(&film->entry, AT_FDCWD, film->temporary, film->temporary);
     if (fd < 0) {
         const int error = errno;
         free(film->temporary);
