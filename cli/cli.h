@@ -105,6 +105,7 @@ struct cli_options {
     bool watch;
     bool force; // overwrite
     bool trust_record;
+    unsigned untrusted_seconds, untrusted_megabytes; // 0 seconds: not given
     bool changed;
     int changed_arg;            // as output_arg
     const char *baseline;       // NULL: not given
@@ -138,6 +139,7 @@ struct cli {
     char **operands;    // what is left after the options
     int operand_count;
     struct cli_stream stream;
+    const struct cli_command *command; // that runs
     struct cli_list fixed; // files whose fixes were shown
     str named_in;          // the folder of a file that names what is read: nothing outside is; empty: there is none
     bool names_scene;      // it names the scene, too

@@ -3,6 +3,7 @@
 
 #include "app/aov/aov.h"
 #include "app/fixes.h"
+#include "cli/untrusted.h"
 #include "core/nearest.h"
 
 #include <getopt.h>
@@ -54,6 +55,7 @@ enum option_id {
     OPTION_ALLOW_RESOLUTION,
     OPTION_FORCE,
     OPTION_TRUST_RECORD,
+    OPTION_UNTRUSTED,
     OPTION_DEPTH,
     OPTION_QUALITY,
     OPTION_COMPRESSION,
@@ -149,6 +151,9 @@ static const struct option_row rows[] = {
      "render view verify test pick check inspect format diff convert deps pack compare tradeoff extremes lsp "
      "import",
      "settings, written as in .glintrc.yaml, that override those beside the scenes, and may raise limits"},
+    {OPTION_UNTRUSTED, "untrusted", 0, "[=SECONDS,MB]", "render verify test check inspect format deps",
+     "for files from anyone: read only below the folders of the arguments, start no program, and take no more than 600 "
+     "seconds of the processor and 4096 MB; what is refused has exit status 5"},
     {OPTION_REPEAT, "repeat", 0, "N", "render",
      "render N times and show the median time of a frame and its spread"},
 #include "cli/options/options_batch.def"
@@ -418,6 +423,8 @@ static bool apply_value(struct cli *cli, int arg, int id, const char *value) {
         if (value && strcmp(value, "json") != 0)
             cli_usage(cli, arg, "--stats takes 'json' or nothing, not '%s'", value);
         return !value || strcmp(value, "json") == 0;
+    case OPTION_UNTRUSTED:
+        return cli_read_untrusted(cli, arg, value);
     case OPTION_FIX:
         options->fix = value ? FIX_ALL : FIX_SAFE;
         if (value && strcmp(value, "all") != 0)

@@ -6,6 +6,7 @@
 #include "files/door.h"
 #include "files/folder.h"
 #include "files/output.h"
+#include "files/sandbox.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -147,6 +148,11 @@ enum file_status files_add_scene_root(struct files *files, str scene_path) {
     return files_add_root(files, path_folder(config.len ? config : scene_path));
 }
 
+static enum file_status outside(void) {
+    sandbox_refuse();
+    return FILE_OUTSIDE;
+}
+
 // The root that the path is below, or NULL.
 static const str *root_above(const struct files *files, str canonical) {
     str rest;
@@ -188,7 +194,7 @@ static enum file_status try_path(struct files *files, str path, str *out) {
     *out = canonical;
     struct stat info;
     bool is_device = stat(canonical.ptr, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
-    return is_device ? FILE_NOT_REGULAR : FILE_OUTSIDE;
+    return is_device ? FILE_NOT_REGULAR : outside();
 }
 
 enum file_status files_resolve(struct files *files, str base_path, str path, str *out) {
@@ -221,7 +227,7 @@ static enum file_status confine(struct files *files, str path, str folder, str *
         return status_of_errno(files, errno);
     if (folder.len)
         folder = files_canonical(files, folder);
-    return may_read(files, *canonical, folder) ? FILE_OK : FILE_OUTSIDE;
+    return may_read(files, *canonical, folder) ? FILE_OK : outside();
 }
 
 enum file_status files_confine(struct files *files, str path, str folder) {
@@ -311,7 +317,7 @@ static enum file_status read_all(struct files *files, int fd, uint64_t size_byte
 
 static enum file_status status_of_open(struct files *files, int error) {
     if (error == ELOOP) // a link has taken its place since it was judged
-        return FILE_OUTSIDE;
+        return outside();
     return error == ENXIO || error == EISDIR ? FILE_NOT_REGULAR : status_of_errno(files, error);
 }
 
@@ -409,14 +415,14 @@ static str canonical_to_be(struct files *files, str path) {
 enum file_status files_place(struct files *files, str path, str *root) {
     const str *above = root_above(files, canonical_to_be(files, path));
     *root = above ? *above : STR("");
-    return above ? FILE_OK : FILE_OUTSIDE;
+    return above ? FILE_OK : outside();
 }
 
 enum file_status files_write(struct files *files, str path, struct output *output) {
     const str canonical = canonical_to_be(files, path);
     *output = (struct output){.fd = -1};
     if (!below_a_root(files, canonical))
-        return FILE_OUTSIDE;
+        return outside();
     const int folder = open_folder(files, canonical);
     if (folder < 0)
         return status_of_open(files, errno);

@@ -4,6 +4,7 @@
 #include "core/xxh64.h"
 #include "files/folder.h"
 #include "files/output.h"
+#include "files/sandbox.h"
 
 #include <assert.h>
 #include <errno.h>
@@ -226,6 +227,8 @@ bool folder_store_seal(const struct folder_store *store, const char *name, const
 char *folder_store_path(const char *name) {
     const char *cache = getenv("XDG_CACHE_HOME");
     const char *home = getenv("HOME");
+    if (sandbox_entered()) // what others have kept is not read for a stranger, nor what is made kept
+        return NULL;
     bool has_cache = cache && cache[0] == '/';
     if (!has_cache && (!home || home[0] != '/'))
         return NULL;

@@ -2,6 +2,7 @@
 // the picture of its name.
 #include "cli/test/test.h"
 
+#include "cli/untrusted.h"
 #include "core/nearest.h"
 #include "core/str_map.h"
 #include "files/files_walk.h"
@@ -27,21 +28,6 @@ static str without_ending(str path, const char *const *endings) {
 }
 
 // ---- the file
-
-// What a repository names stays in it: below the folder of the nearest .glintrc.yaml, else in the work tree of git,
-// else in the folder itself.
-static void add_root(struct test_run *run, str folder) {
-    struct arena *arena = &run->cli->arena;
-    const str here = files_canonical(&run->files, folder);
-    const str config = files_find_config(&run->files, path_join(arena, here, STR("scene")));
-    str top = config.len ? path_folder(config) : here;
-    for (str at = here; !config.len && at.len > 1; at = path_folder(at))
-        if (files_exist(path_join(arena, at, STR(".git")))) {
-            top = at;
-            break;
-        }
-    files_add_root(&run->files, top);
-}
 
 static int read_file(struct test_run *run) {
     struct cli *cli = run->cli;
@@ -417,11 +403,11 @@ int test_plan(struct test_run *run) {
     int status = judge_folder(run);
     files_init(&run->files, &cli->arena);
     if (status == CLI_OK) {
-        add_root(run, run->folder);
+        cli_add_root(&run->files, run->folder);
         status = read_file(run);
     }
     if (status == CLI_OK && run->file_path.len) {
-        add_root(run, file_folder(run));
+        cli_add_root(&run->files, file_folder(run));
         status = judge_pictures(run);
     }
     if (status == CLI_OK)
