@@ -121,8 +121,9 @@ static enum file_status read_scene(struct session *session, str *text) {
     const uint64_t most = o->limits.value[LIMIT_SCENE_BYTES];
     struct files alone;
     if (!o->names_scene)
-        return o->found_in.len ? files_read_found(&session->files, o->path, o->found_in, most, &session->arena, text)
-                               : files_read_given(&session->files, o->path, most, &session->arena, text);
+        return o->found_in.len
+                   ? files_read_found(&session->files, o->path, o->found_in, most, &session->arena, text)
+                   : files_read_given(&session->files, o->path, most, &session->arena, text);
     files_init(&alone, &session->arena); // its own root is not asked
     alone.overlays = session->files.overlays;
     const enum file_status status =

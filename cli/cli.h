@@ -140,9 +140,9 @@ struct cli {
     int operand_count;
     struct cli_stream stream;
     const struct cli_command *command; // that runs
-    struct cli_list fixed; // files whose fixes were shown
-    str named_in;          // the folder of a file that names what is read: nothing outside is; empty: there is none
-    bool names_scene;      // it names the scene, too
+    struct cli_list fixed;             // files whose fixes were shown
+    str named_in; // the folder of a file that names what is read: nothing outside is; empty: there is none
+    bool names_scene;           // it names the scene, too
     uint32_t named_asset_paths; // how many of the last of options.asset_paths it names
 };
 
@@ -182,6 +182,8 @@ bool cli_read_size(struct cli *cli, int arg, const char *text);
 bool cli_read_limit(struct cli *cli, int arg, const char *text);
 bool cli_read_max_messages(struct cli *cli, int arg, const char *text);
 bool cli_read_folder(struct cli *cli, int arg, const char *name, const char *text);
+// "60,2048": seconds and megabytes; NULL: the defaults.
+bool cli_read_untrusted(struct cli *cli, int arg, const char *text);
 // The index of `text` among `words`, which NULL ends; -1: it is not one of them, and the mistake is in
 // cli->sink.
 int cli_read_word(struct cli *cli, int arg, const char *name, const char *text, const char *const *words);
@@ -250,7 +252,8 @@ int cli_write(struct cli *cli, const char *path, str bytes);
 // The same for what was made in memory, called `what` in messages: if memory ran out, CLI_SCENE with an error
 // printed.
 int cli_write_made(struct cli *cli, const char *path, const struct strbuf *made, const char *what);
-// The same for a file that something other than the user has named: below a root (files.h). CLI_REFUSED otherwise.
+// The same for a file that something other than the user has named: below a root (files.h). CLI_REFUSED
+// otherwise.
 int cli_write_named(struct cli *cli, struct files *files, str path, str bytes);
 // Whether the output can be made at all, which is better known before long work than after it: CLI_OK, or
 // CLI_FILE with an error printed. NULL: there is none.

@@ -41,7 +41,8 @@ static int write_found(struct cli *cli, const char *path, const char *folder, st
     return cli_write_named(cli, &files, str_from(path), text);
 }
 
-static void write_result(struct formatter *f, const char *path, const char *folder, const struct layout *layout) {
+static void write_result(struct formatter *f, const char *path, const char *folder,
+                         const struct layout *layout) {
     const struct cli_options *o = &f->cli->options;
     str text = layout->status == LAYOUT_CHANGED ? strbuf_view(&layout->result) : layout->text;
     bool is_stream = strcmp(path, "-") == 0;

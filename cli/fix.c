@@ -23,8 +23,8 @@ static void tell(struct strbuf *text, const struct fixed_file *file) {
                       file->changes == 1 ? "fix" : "fixes");
 }
 
-// The scene that the user named is where it is; what it reads, and what was found in a folder, is where it may be
-// read.
+// The scene that the user named is where it is; what it reads, and what was found in a folder, is where it
+// may be read.
 static int write_file(struct cli *cli, const struct session_options *options, const struct fixed_file *file) {
     struct files files;
     files_init(&files, &cli->arena);

@@ -3,7 +3,6 @@
 
 #include "app/aov/aov.h"
 #include "app/fixes.h"
-#include "cli/untrusted.h"
 #include "core/nearest.h"
 
 #include <getopt.h>
@@ -113,7 +112,8 @@ static const struct option_row rows[] = {
     {OPTION_FORCE, "force", 0, NULL, "import farm", "overwrite files that exist"},
     {OPTION_FORCE, "force", 0, NULL, "test", "let --bless replace files that are not pictures"},
     {OPTION_TRUST_RECORD, "trust-record", 0, NULL, "verify",
-     "read the scene and the folders that the picture names wherever they are, and not only below its own folder"},
+     "read the scene and the folders that the picture names wherever they are, and not only below its own "
+     "folder"},
     {OPTION_SIZE, "size", 0, "WxH", "render view inspect pick tradeoff extremes farm",
      "size of the picture in pixels, instead of the scene's"},
     {OPTION_SAMPLES, "samples", 0, "N", "render view inspect tradeoff farm",
@@ -152,7 +152,8 @@ static const struct option_row rows[] = {
      "import",
      "settings, written as in .glintrc.yaml, that override those beside the scenes, and may raise limits"},
     {OPTION_UNTRUSTED, "untrusted", 0, "[=SECONDS,MB]", "render verify test check inspect format deps",
-     "for files from anyone: read only below the folders of the arguments, start no program, and take no more than 600 "
+     "for files from anyone: read only below the folders of the arguments, start no program, and take no "
+     "more than 600 "
      "seconds of the processor and 4096 MB; what is refused has exit status 5"},
     {OPTION_REPEAT, "repeat", 0, "N", "render",
      "render N times and show the median time of a frame and its spread"},

@@ -10,11 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    SECONDS = 600,
-    MEGABYTES = 4096,
-};
-
 struct allowed {
     struct cli *cli;
     struct files files;
@@ -44,16 +39,13 @@ static void allow_output(struct allowed *a, const char *path) {
 }
 
 void cli_add_root(struct files *files, str folder) {
-    struct arena *arena = files->arena;
     const str here = files_canonical(files, folder);
-    const str config = files_find_config(files, path_join(arena, here, STR("scene")));
-    str top = config.len ? path_folder(config) : here;
-    for (str at = here; !config.len && at.len > 1; at = path_folder(at))
-        if (files_exist(path_join(arena, at, STR(".git")))) {
-            top = at;
-            break;
+    for (str at = here; at.len > 1; at = path_folder(at))
+        if (files_exist(path_join(files->arena, at, STR(".git")))) {
+            files_add_root(files, at);
+            return;
         }
-    files_add_root(files, top);
+    files_add_scene_root(files, path_join(files->arena, here, STR("scene")));
 }
 
 // ---- what a command needs
@@ -109,14 +101,34 @@ static bool writes_roots(const struct cli_options *o, const struct cli_command *
 
 // docs/ci.md lists them. What is not there is left out.
 static void allow_driver(struct allowed *a) {
-    static const char *const read[] = {
-        "/usr/share/vulkan", "/usr/local/share/vulkan", "/etc/vulkan",  "/usr/share/drirc.d", "/etc/drirc",
-        "/usr/share/nvidia", "/usr/lib",                "/usr/lib64",   "/usr/local/lib",     "/lib",
-        "/lib64",            "/etc/ld.so.cache",        "/sys/devices", "/sys/class/drm",     "/sys/dev/char",
-        "/sys/bus/pci",      "/sys/module",             "/proc",        "/dev/urandom",       NULL};
-    static const char *const used[] = {"/dev/dri",           "/dev/nvidiactl",        "/dev/nvidia-uvm",
-                                       "/dev/nvidia-modeset", "/dev/nvidia-uvm-tools", "/dev/null",
-                                       "/dev/shm",           NULL};
+    static const char *const read[] = {"/usr/share/vulkan",
+                                       "/usr/local/share/vulkan",
+                                       "/etc/vulkan",
+                                       "/usr/share/drirc.d",
+                                       "/etc/drirc",
+                                       "/usr/share/nvidia",
+                                       "/usr/lib",
+                                       "/usr/lib64",
+                                       "/usr/local/lib",
+                                       "/lib",
+                                       "/lib64",
+                                       "/etc/ld.so.cache",
+                                       "/sys/devices",
+                                       "/sys/class/drm",
+                                       "/sys/dev/char",
+                                       "/sys/bus/pci",
+                                       "/sys/module",
+                                       "/proc",
+                                       "/dev/urandom",
+                                       NULL};
+    static const char *const used[] = {"/dev/dri",
+                                       "/dev/nvidiactl",
+                                       "/dev/nvidia-uvm",
+                                       "/dev/nvidia-modeset",
+                                       "/dev/nvidia-uvm-tools",
+                                       "/dev/null",
+                                       "/dev/shm",
+                                       NULL};
     for (const char *const *path = read; *path; path++)
         allow(a, str_from(*path), false);
     for (const char *const *path = used; *path; path++)
@@ -127,21 +139,7 @@ static void allow_driver(struct allowed *a) {
     allow_given(a, getenv("VK_ICD_FILENAMES"));
 }
 
-// ---- the option
-
-bool cli_read_untrusted(struct cli *cli, int arg, const char *text) {
-    struct cli_options *o = &cli->options;
-    char end;
-    o->untrusted_seconds = SECONDS;
-    o->untrusted_megabytes = MEGABYTES;
-    const int read = text ? sscanf(text, "%u,%u%c", &o->untrusted_seconds, &o->untrusted_megabytes, &end) : 2;
-    const bool whole = read == 2 || (read == 1 && text[strspn(text, "0123456789")] == '\0');
-    if (whole && o->untrusted_seconds > 0 && o->untrusted_seconds <= 1000000 && o->untrusted_megabytes > 0)
-        return true;
-    cli_usage(cli, arg, "--untrusted takes seconds and, after a comma, megabytes, not '%s'", text);
-    diag_help(&cli->sink, "write --untrusted, or --untrusted=60,2048");
-    return false;
-}
+// ---- all of it
 
 int cli_enter_untrusted(struct cli *cli, const struct cli_command *command, const char *searched) {
     struct allowed a = {.cli = cli};
@@ -164,7 +162,7 @@ int cli_enter_untrusted(struct cli *cli, const struct cli_command *command, cons
     const int error = sandbox_enter(&sandbox);
     if (!error)
         return CLI_OK;
-    cli_usage(cli, cli_option_place(cli, "untrusted"), "the system did not take the limits of --untrusted: %s",
-              strerror(error));
+    cli_usage(cli, cli_option_place(cli, "untrusted"),
+              "the system did not take the limits of --untrusted: %s", strerror(error));
     return CLI_REFUSED;
 }

@@ -398,8 +398,8 @@ static int open_folder(struct files *files, str canonical) {
     return error ? -1 : door_folder(folder.ptr);
 }
 
-// As files_canonical, for a path whose last folders may not be there yet, either; empty: it cannot be told. What looks
-// as if nothing were there may be a link that leads nowhere: it is not followed when it is opened.
+// As files_canonical, for a path whose last folders may not be there yet, either; empty: it cannot be told.
+// What looks as if nothing were there may be a link that leads nowhere: it is not followed when it is opened.
 static str canonical_to_be(struct files *files, str path) {
     str resolved;
     const str base = path_base(path);

@@ -1,11 +1,11 @@
-// What the process may still do once it works with files that nobody trusts: read below some folders, write below
-// others, start no program, and take so much time and memory.
+// What the process may still do once it works with files that nobody trusts: read below some folders, write
+// below others, start no program, and take so much time and memory.
 //
-// The door (door.h, files.h) refuses by itself what a file names outside of its folder. This is the wall behind it:
-// on Linux 5.13 and later the kernel (Landlock) refuses whatever else the process, a library or a driver would open,
-// any program, and any connection. Elsewhere the door is all there is, and programs are not started.
-// It belongs to the process, and to threads that begin later; there is no way out. Thread safety: sandbox_enter
-// belongs to the only thread there is; the others are safe.
+// The door (door.h, files.h) refuses by itself what a file names outside of its folder. This is the wall
+// behind it: on Linux 5.13 and later the kernel (Landlock) refuses whatever else the process, a library or a
+// driver would open, any program, and any connection. Elsewhere the door is all there is, and programs are
+// not started. It belongs to the process, and to threads that begin later; there is no way out. Thread
+// safety: sandbox_enter belongs to the only thread there is; the others are safe.
 #ifndef GLINT_FILES_SANDBOX_H
 #define GLINT_FILES_SANDBOX_H
 

@@ -28,7 +28,10 @@ int stream_read_file(const char *path, size_t most_bytes, struct strbuf *bytes) 
     ssize_t count;
     if (fd < 0)
         return errno;
-    const int wrong = fstat(fd, &info) != 0 ? errno : S_ISREG(info.st_mode) ? 0 : S_ISDIR(info.st_mode) ? EISDIR : EINVAL;
+    const int wrong = fstat(fd, &info) != 0   ? errno
+                      : S_ISREG(info.st_mode) ? 0
+                      : S_ISDIR(info.st_mode) ? EISDIR
+                                              : EINVAL;
     if (wrong) {
         close(fd);
         return wrong;

@@ -17,7 +17,8 @@ struct temporary {
 
 void temporary_note(struct temporary *entry, const char *path);
 // Makes a new file for writing and notes it, in one step for a thread that ends the process. -1: errno says
-// why; nothing is noted. It is the `name` in the open folder (AT_FDCWD: a path of its own), which `path` says too.
+// why; nothing is noted. It is the `name` in the open folder (AT_FDCWD: a path of its own), which `path` says
+// too.
 int temporary_create(struct temporary *entry, int folder, const char *name, const char *path);
 // Does nothing for an entry that is not noted.
 void temporary_forget(struct temporary *entry);

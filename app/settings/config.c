@@ -280,8 +280,8 @@ void config_read(const struct config_input *input, uint32_t source, str path, st
 }
 
 // What was read, or why it was not.
-static void take_file(const struct config_input *input, enum file_status status, str text, str path, str shown,
-                      struct config *config) {
+static void take_file(const struct config_input *input, enum file_status status, str text, str path,
+                      str shown, struct config *config) {
     *config = (struct config){.path = path, .limits = limits_default()};
     uint32_t source = source_add(input->sources, SOURCE_KIND_FILE, shown, text);
     if (status == FILE_OK) {

@@ -40,7 +40,7 @@ struct test_case {
     str found_in; // the folder that was searched for the scene; empty: the file names it
     str named_in; // the root below which it is then
     struct test_settings settings;
-    bool is_there; // the reference, when the cases were listed
+    bool is_there;   // the reference, when the cases were listed
     bool is_foreign; // what is there is not a picture, not even a damaged one
     enum image_format format;
     // What became of it.
@@ -58,8 +58,8 @@ struct test_case {
 
 struct test_run {
     struct cli *cli;
-    str folder;    // without '/' at its end
-    str file_path; // of the bounds; empty: there are none
+    str folder;         // without '/' at its end
+    str file_path;      // of the bounds; empty: there are none
     struct files files; // its roots: where what the file names must be
     struct test_file file;
     struct {

@@ -40,8 +40,9 @@ static int read_file(struct test_run *run) {
         return CLI_OK;
     }
     const enum file_status read =
-        given ? files_read_given(&run->files, run->file_path, FILE_BYTES_MAX, &cli->arena, &text)
-              : files_read_found(&run->files, run->file_path, run->folder, FILE_BYTES_MAX, &cli->arena, &text);
+        given
+            ? files_read_given(&run->files, run->file_path, FILE_BYTES_MAX, &cli->arena, &text)
+            : files_read_found(&run->files, run->file_path, run->folder, FILE_BYTES_MAX, &cli->arena, &text);
     if (read != FILE_OK) {
         cli_error(cli, session_file_code(read), run->file_path.ptr, NULL, "the file of bounds %s",
                   file_status_text(&run->files, read));
@@ -111,7 +112,8 @@ static void add_scene(struct plan *plan, str path) {
 
 static int refuse(struct test_run *run, span at, const char *what) {
     report(run, DIAG_FILE_OUTSIDE, at,
-           arena_format(&run->cli->arena, "%s is outside of the folder that " TEST_FILE_NAME " may name files in", what),
+           arena_format(&run->cli->arena,
+                        "%s is outside of the folder that " TEST_FILE_NAME " may name files in", what),
            STR("an empty .glintrc.yaml makes its folder the one below which files may be named"));
     return CLI_REFUSED;
 }

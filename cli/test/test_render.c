@@ -247,8 +247,9 @@ struct image_coding test_coding(struct test_run *run, const struct test_case *te
     struct record_read record;
     struct record_command command;
     str bytes;
-    if (test->is_there && files_read(&run->files, test->picture, run->cli->options.limits.value[LIMIT_IMAGE_BYTES],
-                                     &run->cli->arena, &bytes) == FILE_OK) {
+    if (test->is_there &&
+        files_read(&run->files, test->picture, run->cli->options.limits.value[LIMIT_IMAGE_BYTES],
+                   &run->cli->arena, &bytes) == FILE_OK) {
         record_find(bytes, &record);
         if (record.is_there && record_read_command(record.fields[RECORD_COMMAND], &run->cli->arena, &command))
             coding = command.coding;

@@ -141,7 +141,8 @@ static int load_scene(struct verify *v) {
         scene_content_text(&session->resolved, v->scene_hash);
     else if (status == CLI_REFUSED)
         fprintf(stderr,
-                "glint: the picture names what is not below its own folder; to read it all the same: --trust-record%s%s%s\n",
+                "glint: the picture names what is not below its own folder; to read it all the same: "
+                "--trust-record%s%s%s\n",
                 cli->names_scene ? ", or glint verify " : "", cli->names_scene ? v->path : "",
                 cli->names_scene ? " SCENE" : "");
     else if (session->state == SESSION_UNREADABLE && cli->operand_count == 1)

@@ -56,7 +56,8 @@ EXPORTED int openat64(int folder, const char *path, int flags, ...) {
     va_start(args, flags);
     mode_t mode = flags & (O_CREAT | O_TMPFILE) ? va_arg(args, mode_t) : 0;
     va_end(args);
-    return STRIKES(flags & O_CREAT ? "open to write" : "open") ? -1 : NEXT(openat64)(folder, path, flags, mode);
+    return STRIKES(flags & O_CREAT ? "open to write" : "open") ? -1
+                                                               : NEXT(openat64)(folder, path, flags, mode);
 }
 
 // openat2, which has no function in the library; the others that programs make this way are not of files.

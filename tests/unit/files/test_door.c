@@ -1,5 +1,5 @@
-// The door: what was judged is what is opened, whatever is exchanged between the look and the opening. Each test runs as
-// the system opens paths, and once more in a process where openat2 does not exist.
+// The door: what was judged is what is opened, whatever is exchanged between the look and the opening. Each
+// test runs as the system opens paths, and once more in a process where openat2 does not exist.
 #define _GNU_SOURCE
 
 #include "files/door.h"
@@ -137,7 +137,8 @@ static void test_what_is_written_stays_inside(void **state) {
     str root;
     files_init(&files, &arena);
     assert_int_equal(files_add_root(&files, str_from(scratch_path(&scratch, "in"))), FILE_OK);
-    static const char *const outside[] = {"out/new", "in/link/new", "in/../out/new", "in/no/../../out/new", "in/to"};
+    static const char *const outside[] = {"out/new", "in/link/new", "in/../out/new", "in/no/../../out/new",
+                                          "in/to"};
     symlink("../out/new", scratch_path(&scratch, "in/to"));
     for (size_t i = 0; i < sizeof outside / sizeof *outside; i++) {
         const str path = arena_copy(&arena, str_from(scratch_path(&scratch, outside[i])));
@@ -146,8 +147,10 @@ static void test_what_is_written_stays_inside(void **state) {
     assert_int_equal(files_place(&files, str_from(scratch_path(&scratch, "out/new")), &root), FILE_OUTSIDE);
     assert_int_equal(mkfifo(scratch_path(&scratch, "in/fifo"), 0666), 0);
     alarm(20);
-    assert_int_equal(files_write(&files, str_from(scratch_path(&scratch, "in/fifo")), &output), FILE_NOT_REGULAR);
-    assert_int_equal(files_write(&files, str_from(scratch_path(&scratch, "in/real")), &output), FILE_NOT_REGULAR);
+    assert_int_equal(files_write(&files, str_from(scratch_path(&scratch, "in/fifo")), &output),
+                     FILE_NOT_REGULAR);
+    assert_int_equal(files_write(&files, str_from(scratch_path(&scratch, "in/real")), &output),
+                     FILE_NOT_REGULAR);
     alarm(0);
     assert_int_equal(files_write(&files, str_from(scratch_path(&scratch, "in/a/b/new")), &output), FILE_OK);
     output_write(&output, "new", 3);
@@ -169,7 +172,8 @@ static void forget_openat2(void) {
         BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
     };
     const struct sock_fprog program = {sizeof code / sizeof *code, code};
-    if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 || prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0)
+    if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 ||
+        prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0)
         print_message("the system has no seccomp: openat2 stays\n");
 }
 

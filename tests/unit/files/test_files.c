@@ -306,8 +306,10 @@ static void refuses_what_is_no_regular_file_at_once(void **state) {
     // A pipe without a writer would block an open that waits.
     assert_int_equal(mkfifo(scratch_path(&f->scratch, "pipe"), 0666), 0);
     assert_int_equal(read_file(f, "pipe", 100, &contents), FILE_NOT_REGULAR);
-    assert_int_equal(files_read_given(&f->files, STR("/dev/zero"), 100, &f->into, &contents), FILE_NOT_REGULAR);
-    assert_int_equal(files_read_given(&f->files, STR("/dev/null"), 100, &f->into, &contents), FILE_NOT_REGULAR);
+    assert_int_equal(files_read_given(&f->files, STR("/dev/zero"), 100, &f->into, &contents),
+                     FILE_NOT_REGULAR);
+    assert_int_equal(files_read_given(&f->files, STR("/dev/null"), 100, &f->into, &contents),
+                     FILE_NOT_REGULAR);
     make_link(f, "/dev/zero", "zero");
     assert_int_equal(read_file(f, "zero", 100, &contents), FILE_NOT_REGULAR);
     struct sockaddr_un name = {.sun_family = AF_UNIX};

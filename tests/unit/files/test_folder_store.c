@@ -232,8 +232,8 @@ static void test_where_it_lies(void **state) {
     free(kept);
 }
 
-// Who may write into the folder may have put anything there. A pipe must not be waited for, and a link neither read
-// nor written through.
+// Who may write into the folder may have put anything there. A pipe must not be waited for, and a link
+// neither read nor written through.
 static void test_only_files_are_entries(void **state) {
     (void)state;
     struct folder_store store = fresh(1000);
@@ -288,14 +288,10 @@ static void test_hash(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_seal_names_the_entry),
-        cmocka_unit_test(test_a_seal_sees_damage),
-        cmocka_unit_test(test_writers_do_not_meet),
-        cmocka_unit_test(test_entries_come_back),
-        cmocka_unit_test(test_the_oldest_go),
-        cmocka_unit_test(test_nothing_is_an_error),
-        cmocka_unit_test(test_only_files_are_entries),
-        cmocka_unit_test(test_hash),
+        cmocka_unit_test(test_a_seal_names_the_entry), cmocka_unit_test(test_a_seal_sees_damage),
+        cmocka_unit_test(test_writers_do_not_meet),    cmocka_unit_test(test_entries_come_back),
+        cmocka_unit_test(test_the_oldest_go),          cmocka_unit_test(test_nothing_is_an_error),
+        cmocka_unit_test(test_only_files_are_entries), cmocka_unit_test(test_hash),
         cmocka_unit_test(test_where_it_lies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
