@@ -33,14 +33,11 @@ static enum layout_status failed(struct layout *layout, uint32_t source) {
 
 static enum file_status read_file(struct job *job) {
     struct layout *layout = job->layout;
-    enum file_status status = FILE_OK;
-    if (job->found_in.len) {
-        files_add_scene_root(&layout->files, job->path);
-        status = files_confine(&layout->files, job->path, job->found_in);
-    }
-    return status == FILE_OK ? files_read(&layout->files, job->path, job->limits->value[LIMIT_SCENE_BYTES],
-                                          &layout->arena, &layout->text)
-                             : status;
+    const uint64_t most = job->limits->value[LIMIT_SCENE_BYTES];
+    if (!job->found_in.len)
+        return files_read_given(&layout->files, job->path, most, &layout->arena, &layout->text);
+    files_add_scene_root(&layout->files, job->path);
+    return files_read_found(&layout->files, job->path, job->found_in, most, &layout->arena, &layout->text);
 }
 
 static enum layout_status run(struct job *job) {

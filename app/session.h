@@ -26,8 +26,12 @@ struct session_options {
     str path;     // of the scene, or of a mesh, which is then a scene with that one model
     str found_in; // the folder that was searched for it: a link must not lead out of what it may read; empty:
                   // the user named the scene
+    str named_in; // the folder below which must be what something other than the user has named: the scene,
+                  // if names_scene, and the last of the asset paths
+    bool names_scene;
     const str *asset_paths;
     uint32_t asset_path_count;
+    uint32_t named_asset_path_count;
     const str *sets; // PATH=VALUE
     uint32_t set_count;
     struct limits limits;

@@ -39,7 +39,7 @@ static enum session_state unreadable(struct session *session, str path, enum fil
     if (status == FILE_TOO_LARGE)
         diag_help(&session->sink, "raise the limit with --limit %s=BYTES",
                   limit_info(LIMIT_SCENE_BYTES)->name);
-    if (status == FILE_OUTSIDE)
+    if (status == FILE_OUTSIDE && !session->options.names_scene)
         diag_help(&session->sink, "it is a link; to read what it leads to, name the file itself");
     return SESSION_UNREADABLE;
 }
@@ -110,22 +110,69 @@ static void load_config(struct session *session) {
         diag_policy_overlay(&session->policy, &session->arena, session->options.policy);
 }
 
+// Nothing beside a scene that may not be read is looked at: no settings, no folder.
+static enum file_status judge_place(struct session *session) {
+    return session->options.names_scene
+               ? files_confine(&session->files, session->options.path, session->options.named_in)
+               : FILE_OK;
+}
+
+static enum file_status read_scene(struct session *session, str *text) {
+    const struct session_options *o = &session->options;
+    const uint64_t most = o->limits.value[LIMIT_SCENE_BYTES];
+    struct files alone;
+    if (!o->names_scene)
+        return o->found_in.len
+                   ? files_read_found(&session->files, o->path, o->found_in, most, &session->arena, text)
+                   : files_read_given(&session->files, o->path, most, &session->arena, text);
+    files_init(&alone, &session->arena); // its own root is not asked
+    alone.overlays = session->files.overlays;
+    const enum file_status status =
+        files_read_found(&alone, o->path, o->named_in, most, &session->arena, text);
+    if (status == FILE_OK)
+        files_identify(&session->files, o->path, &(struct file_read){0}); // it is a file that was read
+    return status;
+}
+
+// false: it was reported.
+static bool add_asset_path(struct session *session, uint32_t at) {
+    const struct session_options *o = &session->options;
+    const str folder = o->asset_paths[at];
+    str within = STR(""), rest;
+    if (at >= o->asset_path_count - o->named_asset_path_count)
+        within = files_canonical(&session->files, o->named_in);
+    const uint32_t before = session->files.roots.count;
+    const enum file_status status = files_add_root(&session->files, folder);
+    const bool is_new = session->files.roots.count > before;
+    if (status == FILE_OK &&
+        (!within.len || !is_new || path_is_below(session->files.roots.items[before], within, &rest)))
+        return true;
+    if (within.len) {
+        session->files.roots.count = before;
+        diag_add(&session->sink, DIAG_FILE_OUTSIDE, SPAN_NONE,
+                 "the folder that --asset-path names is not a folder below the one that may be read");
+    } else {
+        diag_add(&session->sink, DIAG_USAGE, SPAN_NONE, "--asset-path %.*s is not a folder", STR_ARG(folder));
+    }
+    return false;
+}
+
 static enum session_state open_source(struct session *session, struct asset_store *store, uint32_t *source) {
     str path = session->options.path;
     str text = STR("");
+    enum file_status status = judge_place(session);
+    if (status != FILE_OK)
+        return unreadable(session, path, status);
     load_config(session);
     if (session->options.judged &&
         diag_policy_ignores(&session->policy, files_canonical(&session->files, path)))
         return SESSION_IGNORED;
-    enum file_status status = files_add_scene_root(&session->files, path);
+    status = files_add_scene_root(&session->files, path);
     if (status != FILE_OK)
         return unreadable(session, path, status);
     for (uint32_t i = 0; i < session->options.asset_path_count; i++) {
-        str folder = session->options.asset_paths[i];
-        if (files_add_root(&session->files, folder) == FILE_OK)
-            continue;
-        diag_add(&session->sink, DIAG_USAGE, SPAN_NONE, "--asset-path %.*s is not a folder", STR_ARG(folder));
-        return SESSION_UNREADABLE;
+        if (!add_asset_path(session, i))
+            return SESSION_UNREADABLE;
     }
     for (uint32_t i = 0; i < session->config.asset_paths.count; i++)
         files_add_root(&session->files, session->config.asset_paths.items[i]);
@@ -142,8 +189,7 @@ static enum session_state open_source(struct session *session, struct asset_stor
         *source = source_add(&session->sources, SOURCE_KIND_GENERATED, path, text);
         return SESSION_LOADED;
     }
-    status = files_read(&session->files, path, session->options.limits.value[LIMIT_SCENE_BYTES],
-                        &session->arena, &text);
+    status = read_scene(session, &text);
     if (status != FILE_OK)
         return unreadable(session, path, status);
     if (is_another_kind(session, path, text))

@@ -250,7 +250,7 @@ static bool load_scene(const char *path, struct arena *arena, struct diag_sink *
     source_set_init(&sources, arena);
     files_init(&files, arena);
     if (files_add_scene_root(&files, str_from(path)) != FILE_OK ||
-        files_read(&files, str_from(path), limits.value[LIMIT_SCENE_BYTES], arena, &text) != FILE_OK)
+        files_read_given(&files, str_from(path), limits.value[LIMIT_SCENE_BYTES], arena, &text) != FILE_OK)
         return false;
     uint32_t source = source_add(&sources, SOURCE_KIND_FILE, str_from(path), text);
     struct parser_input input = {

@@ -23,6 +23,7 @@ enum cli_exit {
     CLI_USAGE = 2,
     CLI_FILE = 3,     // the scene file cannot be read, an output cannot be written, or memory ran out
     CLI_DEVICE = 4,   // no usable device
+    CLI_REFUSED = 5,  // what a file named is outside its folder, or --untrusted does not allow what is needed
     CLI_STOPPED = 75, // by a signal, and a checkpoint is there to go on from (EX_TEMPFAIL of sysexits.h)
     CLI_INTERRUPTED = 130,
     CLI_PIPE = 141, // who read standard output has closed it, as if by SIGPIPE
@@ -103,6 +104,8 @@ struct cli_options {
     bool list;
     bool watch;
     bool force; // overwrite
+    bool trust_record;
+    unsigned untrusted_seconds, untrusted_megabytes; // 0 seconds: not given
     bool changed;
     int changed_arg;            // as output_arg
     const char *baseline;       // NULL: not given
@@ -136,7 +139,11 @@ struct cli {
     char **operands;    // what is left after the options
     int operand_count;
     struct cli_stream stream;
-    struct cli_list fixed; // files whose fixes were shown
+    const struct cli_command *command; // that runs
+    struct cli_list fixed;             // files whose fixes were shown
+    str named_in; // the folder of a file that names what is read: nothing outside is; empty: there is none
+    bool names_scene;           // it names the scene, too
+    uint32_t named_asset_paths; // how many of the last of options.asset_paths it names
 };
 
 struct cli_command {
@@ -175,6 +182,8 @@ bool cli_read_size(struct cli *cli, int arg, const char *text);
 bool cli_read_limit(struct cli *cli, int arg, const char *text);
 bool cli_read_max_messages(struct cli *cli, int arg, const char *text);
 bool cli_read_folder(struct cli *cli, int arg, const char *name, const char *text);
+// "60,2048": seconds and megabytes; NULL: the defaults.
+bool cli_read_untrusted(struct cli *cli, int arg, const char *text);
 // The index of `text` among `words`, which NULL ends; -1: it is not one of them, and the mistake is in
 // cli->sink.
 int cli_read_word(struct cli *cli, int arg, const char *name, const char *text, const char *const *words);
@@ -246,6 +255,9 @@ int cli_write(struct cli *cli, const char *path, str bytes);
 // The same for what was made in memory, called `what` in messages: if memory ran out, CLI_SCENE with an error
 // printed.
 int cli_write_made(struct cli *cli, const char *path, const struct strbuf *made, const char *what);
+// The same for a file that something other than the user has named: below a root (files.h). CLI_REFUSED
+// otherwise.
+int cli_write_named(struct cli *cli, struct files *files, str path, str bytes);
 // Whether the output can be made at all, which is better known before long work than after it: CLI_OK, or
 // CLI_FILE with an error printed. NULL: there is none.
 int cli_try_output(struct cli *cli, const char *path);

@@ -10,6 +10,7 @@
 #include "cli/cli.h"
 #include "cli/fix.h"
 #include "cli/folder_scenes.h"
+#include "cli/untrusted.h"
 #include "core/parallel.h"
 #include "core/str_map.h"
 #include "diag/diag_report_text.h"
@@ -459,8 +460,10 @@ static int find_changed(struct check *check, struct changed *changed) {
     struct cli *cli = check->cli;
     check->changed = changed;
     changed_init(changed, &cli->arena);
-    if (changed_find(changed, cli->operands, cli->operand_count))
-        return add_changed(check);
+    if (changed_find(changed, cli->operands, cli->operand_count)) {
+        const int status = cli_enter_untrusted(cli, cli->command, changed->searched.items[0].ptr);
+        return status == CLI_OK ? add_changed(check) : status;
+    }
     int arg = changed->operand < 0 ? cli->options.changed_arg : cli_operand_place(cli, changed->operand);
     diag_add(&cli->sink, DIAG_GIT, cli_place(cli, arg), "%.*s", STR_ARG(changed->why));
     diag_help(&cli->sink,
@@ -517,7 +520,7 @@ static int run(struct check *check) {
     if (check->cli->options.write_baseline)
         check->found_folder = baseline_folder(&check->cli->arena, check->cli->options.write_baseline);
     int worst = read_baseline(check, &baseline) ? add_files(check, &changed) : CLI_USAGE;
-    if (worst != CLI_USAGE)
+    if (worst != CLI_USAGE && worst != CLI_REFUSED)
         worst = check_files(check, worst);
     return worst;
 }

@@ -32,7 +32,7 @@ static int read_picture(struct comparison *c, int which) {
     const struct limits *limits = &c->cli->options.limits;
     str bytes;
     enum file_status status =
-        files_read(&c->files, str_from(path), limits->value[LIMIT_IMAGE_BYTES], &c->arena, &bytes);
+        files_read_given(&c->files, str_from(path), limits->value[LIMIT_IMAGE_BYTES], &c->arena, &bytes);
     if (status != FILE_OK)
         return cannot_read(c, path, session_file_code(status), file_status_text(&c->files, status));
     bool unknown;

@@ -43,7 +43,7 @@ static int read_bounds(struct job *job) {
     struct files files;
     files_init(&files, &cli->arena);
     enum file_status status =
-        path ? files_read(&files, job->bounds_path, BOUNDS_BYTES_MAX, &cli->arena, &text) : FILE_OK;
+        path ? files_read_given(&files, job->bounds_path, BOUNDS_BYTES_MAX, &cli->arena, &text) : FILE_OK;
     if (status != FILE_OK) {
         cli_error(cli, session_file_code(status), path, NULL, "the file of bounds %s",
                   file_status_text(&files, status));

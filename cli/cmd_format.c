@@ -29,17 +29,29 @@ static void tell(struct formatter *f, struct layout *layout) {
     strbuf_finish(&text);
 }
 
-static void write_result(struct formatter *f, const char *path, const struct layout *layout) {
+static int write_found(struct cli *cli, const char *path, const char *folder, str text) {
+    struct files files;
+    files_init(&files, &cli->arena);
+    files_add_scene_root(&files, str_from(path));
+    files_add_root(&files, str_from(folder));
+    return cli_write_named(cli, &files, str_from(path), text);
+}
+
+static void write_result(struct formatter *f, const char *path, const char *folder,
+                         const struct layout *layout) {
     const struct cli_options *o = &f->cli->options;
     str text = layout->status == LAYOUT_CHANGED ? strbuf_view(&layout->result) : layout->text;
     bool is_stream = strcmp(path, "-") == 0;
     if (o->output || is_stream)
         worsen(f, cli_write(f->cli, o->output ? o->output : "-", text));
+    else if (layout->status == LAYOUT_CHANGED && folder)
+        worsen(f, write_found(f->cli, path, folder, text));
     else if (layout->status == LAYOUT_CHANGED)
         worsen(f, cli_write(f->cli, path, text));
 }
 
-static void take(struct formatter *f, const char *path, struct layout *layout) {
+// `folder`: that it was found in; NULL: it was named.
+static void take(struct formatter *f, const char *path, const char *folder, struct layout *layout) {
     const struct cli_options *o = &f->cli->options;
     if (layout->status > LAYOUT_CHANGED) {
         tell(f, layout);
@@ -47,7 +59,7 @@ static void take(struct formatter *f, const char *path, struct layout *layout) {
         return;
     }
     if (!o->check && !o->diff) {
-        write_result(f, path, layout);
+        write_result(f, path, folder, layout);
         return;
     }
     if (layout->status == LAYOUT_SAME)
@@ -68,18 +80,17 @@ static void format_stream(struct formatter *f) {
     if (status == CLI_OK) {
         layout_text(&layout, cli_stream_name(f->cli), strbuf_view(&text), &f->cli->options.limits,
                     f->cli->options.upgrade);
-        take(f, "-", &layout);
+        take(f, "-", NULL, &layout);
         layout_finish(&layout);
     }
     worsen(f, status);
     strbuf_finish(&text);
 }
 
-// `folder`: that it was found in; NULL: it was named.
 static void format_file(struct formatter *f, const char *path, const char *folder) {
     struct layout layout;
     layout_file(&layout, str_from(path), str_from(folder), &f->cli->options.limits, f->cli->options.upgrade);
-    take(f, path, &layout);
+    take(f, path, folder, &layout);
     layout_finish(&layout);
 }
 

@@ -42,7 +42,7 @@ static int write_schema(struct cli *cli, const char *path, bool is_xml) {
     strbuf_init(&text);
     (is_xml ? emit_relaxng : emit_json_schema)(&text);
     files_init(&files, &cli->arena);
-    enum file_status status = files_read(&files, str_from(path), UINT32_MAX, &cli->arena, &there);
+    enum file_status status = files_read_given(&files, str_from(path), UINT32_MAX, &cli->arena, &there);
     int result = CLI_OK;
     if (status != FILE_OK || !str_equal(there, strbuf_view(&text)))
         result = cli_write(cli, path, strbuf_view(&text));

@@ -25,6 +25,21 @@ static void tell(struct strbuf *text, const struct fixed_file *file) {
                       file->changes == 1 ? "fix" : "fixes");
 }
 
+// The scene that the user named is where it is; what it reads, and what was found in a folder, is where it
+// may be read.
+static int write_file(struct cli *cli, const struct session_options *options, const struct fixed_file *file) {
+    struct files files;
+    files_init(&files, &cli->arena);
+    if (!options->found_in.len && str_equal(files_canonical(&files, options->path), file->canonical))
+        return cli_write(cli, arena_copy(&cli->arena, file->path).ptr, file->text);
+    files_add_scene_root(&files, options->path);
+    if (options->found_in.len)
+        files_add_root(&files, options->found_in);
+    for (uint32_t i = 0; i < options->asset_path_count; i++)
+        files_add_root(&files, options->asset_paths[i]);
+    return cli_write_named(cli, &files, file->path, file->text);
+}
+
 int cli_fix(struct cli *cli, const struct session_options *options, struct asset_store *store,
             struct strbuf *patch) {
     struct fixes fixes;
@@ -34,7 +49,6 @@ int cli_fix(struct cli *cli, const struct session_options *options, struct asset
     fixes_make(&fixes, options, cli->options.fix, store);
     for (uint32_t i = 0; i < fixes.files.count && !fixes.failed; i++) {
         const struct fixed_file *file = &fixes.files.items[i];
-        const char *path = arena_copy(&cli->arena, file->path).ptr;
         // A file that several scenes include is shown once; files that were written have no findings left to
         // fix.
         bool shown = cli->options.diff && is_done(cli, file->canonical);
@@ -44,7 +58,7 @@ int cli_fix(struct cli *cli, const struct session_options *options, struct asset
             text_diff(file->is_new ? STR("/dev/null") : file->path, file->before, file->path, file->text,
                       patch);
         else if (changed && !cli->options.diff)
-            written = cli_write(cli, path, file->text);
+            written = write_file(cli, options, file);
         status = written > status ? written : status;
         if (written == CLI_OK && !shown && (changed || file->refused) &&
             (!cli->options.diff || file->refused))

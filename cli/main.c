@@ -2,8 +2,10 @@
 #include "cli/cli.h"
 
 #include "cli/memory.h"
+#include "cli/untrusted.h"
 #include "core/clock.h"
 #include "core/nearest.h"
+#include "files/sandbox.h"
 
 #include <ctype.h>
 #include <fcntl.h>
@@ -315,6 +317,9 @@ static int run_command(struct cli *cli, const struct cli_command *command) {
             return cli_usage(cli, cli_operand_place(cli, i), "'glint %s' needs %s, but this is empty",
                              command->name, command->operands);
     int status = cli_take_stream(cli, command);
+    cli->command = command;
+    if (status == CLI_OK && !cli->options.changed) // that asks git first
+        status = cli_enter_untrusted(cli, command, NULL);
     return status == CLI_OK ? command->run(cli) : status;
 }
 
@@ -363,6 +368,8 @@ int main(int argc, char **argv) {
     memory_catch();
     init(&cli, argc, argv);
     int status = run(&cli);
+    if (status != CLI_OK && sandbox_refused())
+        status = CLI_REFUSED;
     if (cli.sink.count)
         cli_print_sink(&cli, &cli.sink);
     diag_sink_finish(&cli.sink);

@@ -8,5 +8,7 @@
 #define GLINT_CLI_MEMORY_H
 
 void memory_catch(void);
+// The same with CLI_REFUSED, as it was --untrusted that refused it; and so where the time is over.
+void memory_catch_untrusted(void);
 
 #endif

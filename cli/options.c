@@ -53,6 +53,8 @@ enum option_id {
     OPTION_COLOR,
     OPTION_ALLOW_RESOLUTION,
     OPTION_FORCE,
+    OPTION_TRUST_RECORD,
+    OPTION_UNTRUSTED,
     OPTION_DEPTH,
     OPTION_QUALITY,
     OPTION_COMPRESSION,
@@ -108,6 +110,10 @@ static const struct option_row rows[] = {
     {OPTION_OUTPUT, "output", 'o', "FILE", "import",
      "write the scene to FILE (.yaml .yml .json .xml); '-' writes YAML to standard output, and no images"},
     {OPTION_FORCE, "force", 0, NULL, "import farm", "overwrite files that exist"},
+    {OPTION_FORCE, "force", 0, NULL, "test", "let --bless replace files that are not pictures"},
+    {OPTION_TRUST_RECORD, "trust-record", 0, NULL, "verify",
+     "read the scene and the folders that the picture names wherever they are, and not only below its own "
+     "folder"},
     {OPTION_SIZE, "size", 0, "WxH", "render view inspect pick tradeoff extremes farm",
      "size of the picture in pixels, instead of the scene's"},
     {OPTION_SAMPLES, "samples", 0, "N", "render view inspect tradeoff farm",
@@ -145,6 +151,10 @@ static const struct option_row rows[] = {
      "render view verify test pick check inspect format diff convert deps pack compare tradeoff extremes lsp "
      "import",
      "settings, written as in .glintrc.yaml, that override those beside the scenes, and may raise limits"},
+    {OPTION_UNTRUSTED, "untrusted", 0, "[=SECONDS,MB]", "render verify test check inspect format deps",
+     "for files from anyone: read only below the folders of the arguments, start no program, and take no "
+     "more than 600 "
+     "seconds of the processor and 4096 MB; what is refused has exit status 5"},
     {OPTION_REPEAT, "repeat", 0, "N", "render",
      "render N times and show the median time of a frame and its spread"},
 #include "cli/options/options_batch.def"
@@ -289,6 +299,8 @@ static bool *flag_of(struct cli_options *options, int id) {
         return &options->list;
     case OPTION_FORCE:
         return &options->force;
+    case OPTION_TRUST_RECORD:
+        return &options->trust_record;
     case OPTION_CHANGED:
         return &options->changed;
     case OPTION_AS_FILE:
@@ -412,6 +424,8 @@ static bool apply_value(struct cli *cli, int arg, int id, const char *value) {
         if (value && strcmp(value, "json") != 0)
             cli_usage(cli, arg, "--stats takes 'json' or nothing, not '%s'", value);
         return !value || strcmp(value, "json") == 0;
+    case OPTION_UNTRUSTED:
+        return cli_read_untrusted(cli, arg, value);
     case OPTION_FIX:
         options->fix = value ? FIX_ALL : FIX_SAFE;
         if (value && strcmp(value, "all") != 0)

@@ -6,6 +6,7 @@
 #include "core/number.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -168,5 +169,23 @@ bool cli_format(struct cli *cli, const char *const *kinds, int *kind) {
     else
         diag_help(&cli->sink, "it takes one of: %.*s", (int)list.len, list.data ? list.data : "");
     strbuf_finish(&list);
+    return false;
+}
+
+bool cli_read_untrusted(struct cli *cli, int arg, const char *text) {
+    struct cli_options *o = &cli->options;
+    enum {
+        SECONDS = 600,
+        MEGABYTES = 4096,
+    };
+    char end;
+    o->untrusted_seconds = SECONDS;
+    o->untrusted_megabytes = MEGABYTES;
+    const int read = text ? sscanf(text, "%u,%u%c", &o->untrusted_seconds, &o->untrusted_megabytes, &end) : 2;
+    const bool whole = read == 2 || (read == 1 && text[strspn(text, "0123456789")] == '\0');
+    if (whole && o->untrusted_seconds > 0 && o->untrusted_seconds <= 1000000 && o->untrusted_megabytes > 0)
+        return true;
+    cli_usage(cli, arg, "--untrusted takes seconds and, after a comma, megabytes, not '%s'", text);
+    diag_help(&cli->sink, "write --untrusted, or --untrusted=60,2048");
     return false;
 }

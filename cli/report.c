@@ -84,6 +84,9 @@ static bool has_code(const struct diag_sink *sink, enum diag_code code) {
 }
 
 int cli_session_status(const struct session *session) {
+    if (session->options.named_in.len && has_code(&session->sink, DIAG_FILE_OUTSIDE) &&
+        session->state == SESSION_UNREADABLE)
+        return CLI_REFUSED;
     if (session->state == SESSION_UNREADABLE)
         return has_code(&session->sink, DIAG_USAGE) ? CLI_USAGE : CLI_FILE;
     if (session->config_failed)
@@ -153,6 +156,9 @@ struct session_options cli_session_options(const struct cli *cli, const char *pa
                                     .overlay_count = cli_is_stream(cli, path),
                                     .asset_paths = o->asset_paths.items,
                                     .asset_path_count = o->asset_paths.count,
+                                    .named_asset_path_count = cli->named_asset_paths,
+                                    .named_in = cli->named_in,
+                                    .names_scene = cli->names_scene,
                                     .sets = o->sets.items,
                                     .set_count = o->sets.count,
                                     .limits = o->limits,
@@ -173,6 +179,24 @@ int cli_write(struct cli *cli, const char *path, str bytes) {
     cli_error(cli, DIAG_OUTPUT, strcmp(path, "-") == 0 ? "standard output" : path, NULL,
               "cannot be written: %s", strerror(error));
     return CLI_FILE;
+}
+
+int cli_write_named(struct cli *cli, struct files *files, str path, str bytes) {
+    struct output output;
+    const enum file_status status = files_write(files, path, &output);
+    if (status == FILE_OK) {
+        output_write(&output, bytes.ptr, bytes.len);
+        if (output_commit(&output))
+            return CLI_OK;
+    }
+    const char *name = arena_copy(&cli->arena, path).ptr;
+    if (status == FILE_OUTSIDE || status == FILE_NOT_REGULAR)
+        cli_error(cli, session_file_code(status), name, NULL, "is not written: it %s",
+                  status == FILE_OUTSIDE ? "leads out of the folder" : file_status_text(files, status));
+    else
+        cli_error(cli, DIAG_OUTPUT, name, NULL, "cannot be written: %s",
+                  strerror(output.error ? output.error : files->system_error));
+    return status == FILE_OUTSIDE || status == FILE_NOT_REGULAR ? CLI_REFUSED : CLI_FILE;
 }
 
 int cli_try_output(struct cli *cli, const char *path) {

@@ -3,7 +3,10 @@
 #include "core/heap.h"
 #include "core/nearest.h"
 #include "core/parallel.h"
+#include "files/door.h"
 #include "files/folder.h"
+#include "files/output.h"
+#include "files/sandbox.h"
 #include "files/work_tree.h"
 
 #include <errno.h>
@@ -151,12 +154,22 @@ enum file_status files_add_scene_root(struct files *files, str scene_path) {
     return files_add_root(files, files_scene_root(files, scene_path));
 }
 
-static bool below_a_root(const struct files *files, str canonical) {
+static enum file_status outside(void) {
+    sandbox_refuse();
+    return FILE_OUTSIDE;
+}
+
+// The root that the path is below, or NULL.
+static const str *root_above(const struct files *files, str canonical) {
     str rest;
     for (uint32_t i = 0; i < files->roots.count; i++)
         if (path_is_below(canonical, files->roots.items[i], &rest))
-            return true;
-    return false;
+            return &files->roots.items[i];
+    return NULL;
+}
+
+static bool below_a_root(const struct files *files, str canonical) {
+    return root_above(files, canonical);
 }
 
 static void log_miss(struct files *files, str canonical) {
@@ -187,7 +200,7 @@ static enum file_status try_path(struct files *files, str path, str *out) {
     *out = canonical;
     struct stat info;
     bool is_device = stat(canonical.ptr, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
-    return is_device ? FILE_NOT_REGULAR : FILE_OUTSIDE;
+    return is_device ? FILE_NOT_REGULAR : outside();
 }
 
 enum file_status files_resolve(struct files *files, str base_path, str path, str *out) {
@@ -204,13 +217,28 @@ enum file_status files_resolve(struct files *files, str base_path, str path, str
     return FILE_MISSING;
 }
 
-enum file_status files_confine(struct files *files, str path, str folder) {
-    str canonical, rest;
-    if (!resolve_links(files, path, &canonical))
+static bool may_read(const struct files *files, str canonical, str folder) {
+    str rest;
+    if (below_a_root(files, canonical) || (folder.len && path_is_below(canonical, folder, &rest)))
+        return true;
+    for (uint32_t i = 0; i < files->given.count; i++)
+        if (str_equal(canonical, files->given.items[i]))
+            return true;
+    return false;
+}
+
+// Where a path leads, if it may be read.
+static enum file_status confine(struct files *files, str path, str folder, str *canonical) {
+    if (!resolve_links(files, path, canonical))
         return status_of_errno(files, errno);
-    bool inside =
-        below_a_root(files, canonical) || path_is_below(canonical, files_canonical(files, folder), &rest);
-    return inside ? FILE_OK : FILE_OUTSIDE;
+    if (folder.len)
+        folder = files_canonical(files, folder);
+    return may_read(files, *canonical, folder) ? FILE_OK : outside();
+}
+
+enum file_status files_confine(struct files *files, str path, str folder) {
+    str canonical;
+    return confine(files, path, folder, &canonical);
 }
 
 static void log_read(struct files *files, str path, const struct stat *info) {
@@ -293,20 +321,14 @@ static enum file_status read_all(struct files *files, int fd, uint64_t size_byte
     return FILE_OK;
 }
 
-enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, struct arena *into,
-                            str *contents) {
-    const struct file_overlay *overlay = find_overlay(files, files_canonical(files, path));
-    *contents = STR("");
-    if (overlay) {
-        *contents = overlay->text;
-        return overlay->text.len > cap_bytes ? FILE_TOO_LARGE : FILE_OK;
-    }
-    const char *name = system_path(files, path);
-    if (!name)
-        return FILE_MISSING;
-    int fd = open(name, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
-    if (fd < 0)
-        return errno == ENXIO || errno == EISDIR ? FILE_NOT_REGULAR : status_of_errno(files, errno);
+static enum file_status status_of_open(struct files *files, int error) {
+    if (error == ELOOP) // a link has taken its place since it was judged
+        return outside();
+    return error == ENXIO || error == EISDIR ? FILE_NOT_REGULAR : status_of_errno(files, error);
+}
+
+static enum file_status read_open(struct files *files, int fd, str path, uint64_t cap_bytes,
+                                  struct arena *into, str *contents) {
     struct stat info;
     enum file_status status = FILE_OK;
     if (fstat(fd, &info) != 0)
@@ -321,6 +343,97 @@ enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, s
     if (status == FILE_OK)
         log_read(files, path, &info);
     return status;
+}
+
+// Text from memory. false: there is none for this path.
+static bool read_overlay(struct files *files, str path, uint64_t cap_bytes, str *contents,
+                         enum file_status *status) {
+    const struct file_overlay *overlay = find_overlay(files, files_canonical(files, path));
+    *contents = overlay ? overlay->text : STR("");
+    *status = overlay && overlay->text.len > cap_bytes ? FILE_TOO_LARGE : FILE_OK;
+    return overlay;
+}
+
+enum file_status files_read_found(struct files *files, str path, str folder, uint64_t cap_bytes,
+                                  struct arena *into, str *contents) {
+    enum file_status status;
+    str canonical;
+    if (read_overlay(files, path, cap_bytes, contents, &status))
+        return status;
+    status = confine(files, path, folder, &canonical);
+    if (status != FILE_OK)
+        return status;
+    const int fd = door_open(canonical.ptr, O_RDONLY);
+    return fd < 0 ? status_of_open(files, errno) : read_open(files, fd, path, cap_bytes, into, contents);
+}
+
+enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, struct arena *into,
+                            str *contents) {
+    return files_read_found(files, path, STR(""), cap_bytes, into, contents);
+}
+
+enum file_status files_read_given(struct files *files, str path, uint64_t cap_bytes, struct arena *into,
+                                  str *contents) {
+    enum file_status status;
+    if (read_overlay(files, path, cap_bytes, contents, &status))
+        return status;
+    const char *name = system_path(files, path);
+    if (!name)
+        return FILE_MISSING;
+    const int fd = open(name, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+    if (fd < 0)
+        return errno == ELOOP ? status_of_errno(files, errno) : status_of_open(files, errno);
+    *ARENA_PUSH(files->arena, &files->given) = files_canonical(files, path);
+    return read_open(files, fd, path, cap_bytes, into, contents);
+}
+
+// ---- writing
+
+// The folder of a canonical path, open; those that are not there are made, below a root.
+static int open_folder(struct files *files, str canonical) {
+    const str folder = arena_copy(files->arena, path_folder(canonical));
+    const int fd = door_folder(folder.ptr);
+    if (fd >= 0 || errno != ENOENT || !below_a_root(files, folder))
+        return fd;
+    const int above = open_folder(files, folder);
+    if (above < 0)
+        return -1;
+    const int error = mkdirat(above, path_base(folder).ptr, 0777) != 0 && errno != EEXIST ? errno : 0;
+    close(above);
+    errno = error;
+    return error ? -1 : door_folder(folder.ptr);
+}
+
+// As files_canonical, for a path whose last folders may not be there yet, either; empty: it cannot be told.
+// What looks as if nothing were there may be a link that leads nowhere: it is not followed when it is opened.
+static str canonical_to_be(struct files *files, str path) {
+    str resolved;
+    const str base = path_base(path);
+    if (resolve_links(files, path, &resolved))
+        return resolved;
+    // Where '..' leads from a folder that is not there, nobody knows.
+    if (errno != ENOENT || !base.len || str_equal(base, STR("..")) || str_equal(base, STR(".")))
+        return STR("");
+    const str folder = canonical_to_be(files, path_folder(path));
+    return folder.len ? path_join(files->arena, folder, base) : folder;
+}
+
+enum file_status files_place(struct files *files, str path, str *root) {
+    const str *above = root_above(files, canonical_to_be(files, path));
+    *root = above ? *above : STR("");
+    return above ? FILE_OK : outside();
+}
+
+enum file_status files_write(struct files *files, str path, struct output *output) {
+    const str canonical = canonical_to_be(files, path);
+    *output = (struct output){.fd = -1};
+    if (!below_a_root(files, canonical))
+        return outside();
+    const int folder = open_folder(files, canonical);
+    if (folder < 0)
+        return status_of_open(files, errno);
+    const bool good = output_open_in(output, folder, canonical.ptr);
+    return good ? FILE_OK : status_of_open(files, output->error);
 }
 
 enum file_status files_identify(struct files *files, str path, struct file_read *out) {
@@ -362,8 +475,7 @@ static bool has_ending(str name, const char *const *endings) {
 
 str files_suggest(struct files *files, str path, const char *const *endings) {
     str folder = files_canonical(files, path_folder(path));
-    const char *system = below_a_root(files, folder) ? system_path(files, folder) : NULL;
-    DIR *directory = system ? folder_open(system) : NULL;
+    DIR *directory = below_a_root(files, folder) ? folder_behind(folder.ptr) : NULL;
     if (!directory)
         return STR("");
     // Endings that are equal would make any two short names look alike.

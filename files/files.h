@@ -1,5 +1,6 @@
-// The one door to the file system, for reading. Scenes may only read what is below allowed folders
-// (roots), links followed, and only regular files. Files are read whole into memory, never mapped.
+// The one door to the file system, for reading. What a file names may only be read below allowed folders
+// (roots), links followed, and only if it is a regular file; what is judged is what is opened (door.h). Files
+// are read whole into memory, never mapped.
 //
 // Ownership: the caller owns `struct files`; contents go into the caller's arena. Paths go into the arena
 // given to `files_init`, which must be guarded while these functions run.
@@ -38,6 +39,10 @@ struct files {
         str *items;
         uint32_t count, capacity;
     } roots; // absolute, links resolved; first the scene's
+    struct {
+        str *items;
+        uint32_t count, capacity;
+    } given; // files that the user named, links resolved: they may be read again
     struct {
         struct file_overlay *items;
         uint32_t count, capacity;
@@ -78,10 +83,23 @@ enum file_status files_resolve(struct files *files, str base_path, str path, str
 // Whether a file that was found in a folder, and that nobody named, may be read: links followed, it must be
 // below a root or below that `folder`. FILE_OUTSIDE if it is not.
 enum file_status files_confine(struct files *files, str path, str folder);
-// Reads a file that was resolved, or one that the user named (roots are not checked here). A NUL byte
-// follows the contents, not counted. `cap_bytes` is checked before memory is taken.
+// Reads a file below a root, or one that was given; others are FILE_OUTSIDE. A NUL byte follows the contents,
+// not counted. `cap_bytes` is checked before memory is taken.
 enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, struct arena *into,
                             str *contents);
+// The same for one that files_confine allows.
+enum file_status files_read_found(struct files *files, str path, str folder, uint64_t cap_bytes,
+                                  struct arena *into, str *contents);
+// The same for one that the user named, wherever it is.
+enum file_status files_read_given(struct files *files, str path, uint64_t cap_bytes, struct arena *into,
+                                  str *contents);
+// Whether a path, the last parts of which need not be there, is below a root, links followed: *root is that
+// one.
+enum file_status files_place(struct files *files, str path, str *root);
+struct output;
+// Opens an output that something other than the user named, below a root, in folders that are made if they
+// are not there. FILE_NOT_REGULAR: something other than a file has this name.
+enum file_status files_write(struct files *files, str path, struct output *output);
 // Canonical path, size and time of a regular file (or overlay: its time is a hash of its text) without
 // reading it, for caches; is logged as a read.
 enum file_status files_identify(struct files *files, str path, struct file_read *out);

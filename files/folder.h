@@ -9,6 +9,8 @@
 
 // NULL: errno says why.
 DIR *folder_open(const char *path);
+// The same through the door (door.h): its path is canonical.
+DIR *folder_behind(const char *canonical);
 // NULL: there are no more, or, if errno is not 0, they could not be read.
 struct dirent *folder_next(DIR *folder);
 

@@ -4,6 +4,7 @@
 #include "core/xxh64.h"
 #include "files/folder.h"
 #include "files/output.h"
+#include "files/sandbox.h"
 
 #include <assert.h>
 #include <errno.h>
@@ -13,6 +14,10 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+enum {
+    FOLDER_FLAGS = O_RDONLY | O_DIRECTORY | O_CLOEXEC
+};
 
 static bool is_usable(const struct folder_store *store) {
     return store->path && store->path[0] != '\0';
@@ -75,11 +80,12 @@ static char *read_file(int fd, size_t most_bytes, size_t *count) {
 void *folder_store_read(const struct folder_store *store, const char *name, size_t most_bytes,
                         size_t *count) {
     *count = 0;
-    char *path = is_usable(store) ? joined(store->path, name) : NULL;
-    if (!path)
+    const int folder = is_usable(store) ? open(store->path, FOLDER_FLAGS) : -1;
+    if (folder < 0)
         return NULL;
-    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    free(path);
+    // What has the entry's name and is not a file, nobody here has written.
+    int fd = openat(folder, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+    close(folder);
     if (fd < 0)
         return NULL;
     char *bytes = read_file(fd, most_bytes, count);
@@ -158,7 +164,8 @@ bool folder_store_write(const struct folder_store *store, const char *name,
         return false;
     char *path = joined(store->path, name);
     struct output output;
-    bool kept = path && output_open(&output, path);
+    const int folder = path ? open(store->path, FOLDER_FLAGS) : -1;
+    bool kept = folder >= 0 && output_open_over(&output, folder, path);
     if (kept) {
         for (int i = 0; i < part_count; i++)
             output_write(&output, parts[i].bytes, parts[i].count);
@@ -220,6 +227,8 @@ bool folder_store_seal(const struct folder_store *store, const char *name, const
 char *folder_store_path(const char *name) {
     const char *cache = getenv("XDG_CACHE_HOME");
     const char *home = getenv("HOME");
+    if (sandbox_entered()) // what others have kept is not read for a stranger, nor what is made kept
+        return NULL;
     bool has_cache = cache && cache[0] == '/';
     if (!has_cache && (!home || home[0] != '/'))
         return NULL;

@@ -3,6 +3,7 @@
 #include "core/strbuf.h"
 #include "files/files.h"
 #include "files/git_run.h"
+#include "files/sandbox.h"
 
 #include <errno.h>
 #include <string.h>
@@ -37,7 +38,12 @@ static bool ask(struct git_changes *changes, struct arena *arena, str folder, co
     struct git_answer answer = {.error = 0};
     strbuf_init(&answer.text[GIT_OUT]);
     strbuf_init(&answer.text[GIT_ERR]);
-    git_run(&answer, words);
+    if (sandbox_entered()) {
+        sandbox_refuse();
+        answer.error = EPERM;
+    } else {
+        git_run(&answer, words);
+    }
     bool failed = answer.text[GIT_OUT].failed || answer.text[GIT_ERR].failed;
     answer.error = failed ? ENOMEM : answer.error;
     bool good = answer.error == 0 && answer.status == 0;

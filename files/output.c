@@ -60,6 +60,8 @@ static void forget_temporary(struct output *output) {
 
 static void release(struct output *output) {
     forget_temporary(output);
+    if (output->path && output->folder != AT_FDCWD)
+        close(output->folder);
     free(output->path);
     output->path = NULL;
     output->fd = -1;
@@ -76,6 +78,12 @@ static void take_mode(int fd, const struct stat *old) {
         errno = 0;
 }
 
+// How a path is named in the output's folder.
+static const char *named(const struct output *output, const char *path) {
+    const char *slash = output->folder == AT_FDCWD ? NULL : strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
 // A new file beside the target. Its name does not grow with the target's, which may be as long as names
 // get; the umask decides its permissions.
 static int create_beside(struct output *output) {
@@ -88,7 +96,8 @@ static int create_beside(struct output *output) {
     for (unsigned attempt = 0; attempt < TEMPORARY_NAMES; attempt++) {
         snprintf(output->temporary, size, "%.*s.glint-%ld-%u.tmp", folder, output->path, (long)getpid(),
                  attempt);
-        int fd = temporary_create(&output->entry, output->temporary);
+        int fd = temporary_create(&output->entry, output->folder, named(output, output->temporary),
+                                  output->temporary);
         if (fd >= 0)
             return fd;
         if (errno != EEXIST)
@@ -152,7 +161,7 @@ static void open_target(struct output *output) {
 }
 
 bool output_open(struct output *output, const char *path) {
-    *output = (struct output){.fd = -1};
+    *output = (struct output){.fd = -1, .folder = AT_FDCWD};
     errno = 0;
     if (strcmp(path, "-") == 0) {
         output->fd = STDOUT_FILENO;
@@ -166,6 +175,44 @@ bool output_open(struct output *output, const char *path) {
         open_target(output);
     else
         fail(output);
+    if (output->error)
+        output_abandon(output);
+    return !output->error;
+}
+
+static bool begin_in(struct output *output, int folder, const char *path) {
+    *output = (struct output){.fd = -1, .folder = folder, .path = heap_text(path)};
+    if (output->path)
+        return true;
+    close(folder);
+    errno = ENOMEM;
+    return fail(output);
+}
+
+bool output_open_in(struct output *output, int folder, const char *path) {
+    struct stat info;
+    if (!begin_in(output, folder, path))
+        return false;
+    const char *name = named(output, output->path);
+    errno = 0;
+    const bool exists = fstatat(folder, name, &info, AT_SYMLINK_NOFOLLOW) == 0;
+    if (exists && !S_ISREG(info.st_mode)) {
+        errno = S_ISLNK(info.st_mode) ? ELOOP : S_ISDIR(info.st_mode) ? EISDIR : ENXIO;
+        fail(output);
+    } else if (exists && faccessat(folder, name, W_OK, 0) != 0) {
+        fail(output);
+    } else {
+        open_temporary(output, exists ? &info : NULL);
+    }
+    if (output->error)
+        output_abandon(output);
+    return !output->error;
+}
+
+bool output_open_over(struct output *output, int folder, const char *path) {
+    if (!begin_in(output, folder, path))
+        return false;
+    open_temporary(output, NULL);
     if (output->error)
         output_abandon(output);
     return !output->error;
@@ -207,10 +254,12 @@ bool output_commit(struct output *output) {
         fail(output);
     if (own && !close_once(output->fd))
         fail(output);
-    if (!output->error && output->temporary && rename(output->temporary, output->path) != 0)
+    if (!output->error && output->temporary &&
+        renameat(output->folder, named(output, output->temporary), output->folder,
+                 named(output, output->path)) != 0)
         fail(output);
     if (output->error && output->temporary)
-        unlink(output->temporary);
+        unlinkat(output->folder, named(output, output->temporary), 0);
     release(output);
     return !output->error;
 }
@@ -219,7 +268,7 @@ void output_abandon(struct output *output) {
     if (output->fd >= 0 && output->fd != STDOUT_FILENO)
         close(output->fd);
     if (output->temporary)
-        unlink(output->temporary);
+        unlinkat(output->folder, named(output, output->temporary), 0);
     release(output);
 }
 

@@ -13,7 +13,8 @@
 #include "files/temporary.h"
 
 struct output {
-    int fd; // -1: closed
+    int fd;     // -1: closed
+    int folder; // the open one that has the file, or AT_FDCWD
     char *path;
     char *temporary; // NULL if the target is written directly
     struct temporary entry;
@@ -22,6 +23,11 @@ struct output {
 
 // Opens the temporary file. false: output.error says why; nothing else needs to be called.
 bool output_open(struct output *output, const char *path);
+// The same for the file of this path in an open folder, which becomes the output's, by its name there:
+// nothing but a regular file is replaced, and a link is not followed (ELOOP, ENXIO, EISDIR).
+bool output_open_in(struct output *output, int folder, const char *path);
+// The same, whatever has that name: it is replaced by the file, a folder excepted.
+bool output_open_over(struct output *output, int folder, const char *path);
 void output_write(struct output *output, const void *bytes, size_t count);
 // Where the next byte goes, and another place: for formats whose beginning is written last. Not for what is
 // not a file.

@@ -1,5 +1,8 @@
 #include "files/spawn.h"
 
+#include "files/sandbox.h"
+
+#include <errno.h>
 #include <signal.h>
 #include <spawn.h>
 #include <unistd.h>
@@ -38,6 +41,10 @@ static int start(pid_t *child, const char *const *words, const posix_spawn_file_
 int spawn(pid_t *child, const char *const *words, const struct spawn_streams *streams, bool own_group) {
     posix_spawn_file_actions_t actions;
     *child = 0;
+    if (sandbox_entered()) {
+        sandbox_refuse();
+        return EPERM;
+    }
     int error = posix_spawn_file_actions_init(&actions);
     if (error)
         return error;

@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -21,7 +22,7 @@ static bool open_as(struct spool *spool, const char *path, int flags) {
     struct stat info;
     *spool = (struct spool){.fd = -1};
     do
-        spool->fd = open(path, flags | O_CLOEXEC);
+        spool->fd = open(path, flags | O_CLOEXEC | O_NONBLOCK);
     while (spool->fd < 0 && errno == EINTR);
     if (spool->fd < 0 || fstat(spool->fd, &info) != 0)
         fail(spool, errno);
@@ -37,19 +38,32 @@ static bool open_as(struct spool *spool, const char *path, int flags) {
 }
 
 bool spool_open(struct spool *spool, const char *path) {
-    return open_as(spool, path, O_RDWR);
+    return open_as(spool, path, O_RDWR | O_NOFOLLOW);
 }
 
 bool spool_read(struct spool *spool, const char *path) {
     return open_as(spool, path, O_RDONLY);
 }
 
+// Its name is made of another's: nobody has looked whether a link has it.
 bool spool_create(struct spool *spool, const char *path, const void *head, size_t count) {
-    const int error = output_whole(path, head, count);
-    if (!error)
+    struct output output = {.error = ENOMEM};
+    const char *slash = strrchr(path, '/');
+    char *in = heap_text(slash ? path : ".");
+    if (in && slash)
+        in[slash > path ? slash - path : 1] = '\0';
+    const int folder = in ? open(in, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    if (in && folder < 0)
+        output.error = errno;
+    free(in);
+    if (folder >= 0 && output_open_over(&output, folder, path)) {
+        output_write(&output, head, count);
+        output_commit(&output);
+    }
+    if (!output.error)
         return spool_open(spool, path);
     *spool = (struct spool){.fd = -1};
-    return fail(spool, error);
+    return fail(spool, output.error);
 }
 
 bool spool_put(struct spool *spool, uint64_t at, const void *bytes, size_t count) {

@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum {
@@ -22,10 +23,19 @@ int stream_read(int fd, size_t cap_bytes, struct strbuf *text) {
 
 int stream_read_file(const char *path, size_t most_bytes, struct strbuf *bytes) {
     char block[BLOCK_BYTES];
-    const int fd = open(path, O_RDONLY | O_CLOEXEC);
+    struct stat info;
+    const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); // a pipe in its place is not waited for
     ssize_t count;
     if (fd < 0)
         return errno;
+    const int wrong = fstat(fd, &info) != 0   ? errno
+                      : S_ISREG(info.st_mode) ? 0
+                      : S_ISDIR(info.st_mode) ? EISDIR
+                                              : EINVAL;
+    if (wrong) {
+        close(fd);
+        return wrong;
+    }
     do {
         const size_t left = most_bytes - bytes->len;
         count = read(fd, block, left < sizeof block ? left : sizeof block);

@@ -46,11 +46,11 @@ void temporary_note(struct temporary *entry, const char *path) {
     unlock();
 }
 
-int temporary_create(struct temporary *entry, const char *path) {
+int temporary_create(struct temporary *entry, int folder, const char *name, const char *path) {
     lock();
     int fd;
     do
-        fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        fd = openat(folder, name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     while (fd < 0 && errno == EINTR);
     const int error = errno;
     if (fd >= 0)

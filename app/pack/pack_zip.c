@@ -118,7 +118,7 @@ static void read_and_put(void *context) {
     str bytes;
     str path = arena_format(&p->arena, "%s/%.*s", p->folder, STR_ARG(p->target));
     files_init(&files, &p->arena);
-    enum file_status status = files_read(&files, path, UINT64_MAX / 4, &p->arena, &bytes);
+    enum file_status status = files_read_given(&files, path, UINT64_MAX / 4, &p->arena, &bytes);
     if (status != FILE_OK) {
         snprintf(p->error->text, sizeof p->error->text, "'%s' %s", path.ptr,
                  file_status_text(&files, status));

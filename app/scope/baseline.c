@@ -101,7 +101,7 @@ static void read_file(void *context) {
     str_map_init(&b->scenes, b->arena);
     files_init(&files, b->arena);
     b->folder = baseline_folder(b->arena, b->path);
-    enum file_status status = files_read(&files, str_from(b->path), FILE_BYTES_MAX, b->arena, &text);
+    enum file_status status = files_read_given(&files, str_from(b->path), FILE_BYTES_MAX, b->arena, &text);
     r->source = source_add(r->sources, SOURCE_KIND_FILE, str_from(b->path), text);
     if (status != FILE_OK) {
         diag_add(r->sink, session_file_code(status), (span){r->source, 0, 0}, "the baseline %s",

@@ -279,36 +279,37 @@ void config_read(const struct config_input *input, uint32_t source, str path, st
         arena_raise(input->arena, fault);
 }
 
-void config_read_file(const struct config_input *input, str path, str shown, struct config *config) {
-    str text = STR("");
+// What was read, or why it was not.
+static void take_file(const struct config_input *input, enum file_status status, str text, str path,
+                      str shown, struct config *config) {
     *config = (struct config){.path = path, .limits = limits_default()};
-    enum file_status status = files_read(input->files, path, CONFIG_BYTES_MAX, input->arena, &text);
     uint32_t source = source_add(input->sources, SOURCE_KIND_FILE, shown, text);
-    if (status == FILE_OK)
+    if (status == FILE_OK) {
         config_read(input, source, path, config);
-    else
+    } else if (status == FILE_OUTSIDE) {
+        diag_add(input->sink, DIAG_FILE_OUTSIDE, (span){source, 0, 0},
+                 "the configuration is a link that leads out of its folder");
+        diag_help(input->sink, "put the settings into the file itself");
+    } else {
         diag_add(input->sink, status == FILE_TOO_LARGE ? DIAG_LIMIT : DIAG_FILE_UNREADABLE,
                  (span){source, 0, 0}, "the configuration %s", file_status_text(input->files, status));
+    }
+}
+
+void config_read_file(const struct config_input *input, str path, str shown, struct config *config) {
+    str text = STR("");
+    enum file_status status = files_read_given(input->files, path, CONFIG_BYTES_MAX, input->arena, &text);
+    take_file(input, status, text, path, shown, config);
 }
 
 // Nobody names this file: a link to another place must not make what is there be read and reported.
-static bool is_confined(const struct config_input *input, str path) {
-    struct files alone;
-    files_init(&alone, input->arena);
-    return files_confine(&alone, path, path_folder(path)) != FILE_OUTSIDE;
-}
-
 void config_load(const struct config_input *input, str scene_path, struct config *config) {
+    str text = STR("");
     *config = (struct config){.path = files_find_config(input->files, scene_path)};
     if (!config->path.len)
         return;
-    str shown = path_shown(input, scene_path, config->path);
-    if (is_confined(input, config->path)) {
-        config_read_file(input, config->path, shown, config);
-        return;
-    }
-    uint32_t source = source_add(input->sources, SOURCE_KIND_FILE, shown, STR(""));
-    diag_add(input->sink, DIAG_FILE_OUTSIDE, (span){source, 0, 0},
-             "the configuration is a link that leads out of its folder");
-    diag_help(input->sink, "put the settings into the file itself");
+    const str path = config->path, shown = path_shown(input, scene_path, path);
+    const enum file_status status =
+        files_read_found(input->files, path, path_folder(path), CONFIG_BYTES_MAX, input->arena, &text);
+    take_file(input, status, text, path, shown, config);
 }

@@ -1,6 +1,7 @@
 #include "cli/batch/film.h"
 
 #include "core/heap.h"
+#include "files/sandbox.h"
 #include "files/spawn.h"
 
 #include <errno.h>
@@ -213,7 +214,7 @@ static int begin_ffmpeg(struct film *film) {
     film->temporary = temporary_name(film->path);
     if (!film->temporary)
         return cannot_write(film, ENOMEM);
-    const int fd = temporary_create(&film->entry, film->temporary);
+    const int fd = temporary_create(&film->entry, AT_FDCWD, film->temporary, film->temporary);
     if (fd < 0) {
         const int error = errno;
         free(film->temporary);
@@ -241,6 +242,10 @@ static str last_lines(struct film *film) {
 // Whether ffmpeg is in the PATH; not in what the frames take.
 static int find_ffmpeg(struct film *film) {
     str path = str_from(getenv("PATH"));
+    if (sandbox_entered()) {
+        sandbox_refuse();
+        return no_ffmpeg(film, EPERM);
+    }
     for (size_t begin = 0, i = 0; i <= path.len; i++) {
         if (i < path.len && path.ptr[i] != ':')
             continue;

@@ -33,7 +33,7 @@ static int read_picture(struct cli *cli, struct inspected *p) {
     str bytes;
     files_init(&files, &cli->arena);
     const enum file_status read =
-        files_read(&files, str_from(p->path), limits->value[LIMIT_IMAGE_BYTES], &cli->arena, &bytes);
+        files_read_given(&files, str_from(p->path), limits->value[LIMIT_IMAGE_BYTES], &cli->arena, &bytes);
     if (read != FILE_OK) {
         cli_error(cli, session_file_code(read), p->path, NULL, "%s", file_status_text(&files, read));
         return CLI_FILE;

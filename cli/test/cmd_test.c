@@ -2,32 +2,19 @@
 #include "cli/test/test.h"
 
 #include "core/clock.h"
-#include "files/output.h"
-
-#include <errno.h>
-#include <string.h>
-#include <sys/stat.h>
 
 // ---- new references
 
-// The file names a folder that is not there yet: the first references make it, with those inside.
-static void make_folders(struct test_run *run, const struct test_case *test) {
-    const str top = test_pictures_folder(run);
-    for (size_t i = top.len; top.len && i < test->picture.len; i++)
-        if (test->picture.ptr[i] == '/') // writing into it says why there is none
-            mkdir(arena_copy(&run->cli->arena, str_slice(test->picture, 0, i)).ptr, 0777);
-}
-
 static int bless(struct test_run *run, struct test_case *test, const struct test_made *made) {
-    make_folders(run, test);
-    const str file = strbuf_view(&made->file);
-    const int error = output_whole(test->picture.ptr, file.ptr, file.len);
-    if (error == 0) {
-        test->is_written = true;
-        return CLI_OK;
+    struct cli *cli = run->cli;
+    if (test->is_foreign && !cli->options.force) {
+        cli_error(cli, DIAG_OUTPUT, test->picture.ptr, "to replace it all the same: --force",
+                  "is not written: what is there is not a picture");
+        return CLI_REFUSED;
     }
-    cli_error(run->cli, DIAG_OUTPUT, test->picture.ptr, NULL, "cannot be written: %s", strerror(error));
-    return CLI_FILE;
+    const int status = cli_write_named(cli, &run->files, test->picture, strbuf_view(&made->file));
+    test->is_written = status == CLI_OK;
+    return status;
 }
 
 // ---- one picture

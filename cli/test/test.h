@@ -7,6 +7,7 @@
 
 #include "app/settings/test_file.h"
 #include "cli/cli.h"
+#include "files/files.h"
 #include "picture/metrics/metrics.h"
 
 enum test_state {
@@ -37,8 +38,10 @@ struct test_case {
     str scene;    // its path
     str picture;  // the reference's path
     str found_in; // the folder that was searched for the scene; empty: the file names it
+    str named_in; // the root below which it is then
     struct test_settings settings;
-    bool is_there; // the reference, when the cases were listed
+    bool is_there;   // the reference, when the cases were listed
+    bool is_foreign; // what is there is not a picture, not even a damaged one
     enum image_format format;
     // What became of it.
     enum test_state state;
@@ -55,8 +58,9 @@ struct test_case {
 
 struct test_run {
     struct cli *cli;
-    str folder;    // without '/' at its end
-    str file_path; // of the bounds; empty: there are none
+    str folder;         // without '/' at its end
+    str file_path;      // of the bounds; empty: there are none
+    struct files files; // its roots: where what the file names must be
     struct test_file file;
     struct {
         struct test_case *items;

@@ -185,15 +185,16 @@ static void measure(struct judging *j) {
 
 static const char *read_reference(struct judging *j) {
     struct cli *cli = j->run->cli;
-    struct files files;
-    bool unknown;
-    files_init(&files, &j->arena);
+    bool unknown = false;
     const enum file_status read = files_read(
-        &files, j->test->picture, cli->options.limits.value[LIMIT_IMAGE_BYTES], &j->arena, &j->bytes);
+        &j->run->files, j->test->picture, cli->options.limits.value[LIMIT_IMAGE_BYTES], &j->arena, &j->bytes);
+    j->test->is_foreign = read != FILE_OK;
     if (read != FILE_OK)
-        return arena_copy(&cli->arena, str_from(file_status_text(&files, read))).ptr;
-    return picture_file_decode(j->bytes, cli->options.limits.value[LIMIT_IMAGE_MEMORY], &j->pictures[1],
-                               &unknown);
+        return arena_copy(&cli->arena, str_from(file_status_text(&j->run->files, read))).ptr;
+    const char *fault = picture_file_decode(j->bytes, cli->options.limits.value[LIMIT_IMAGE_MEMORY],
+                                            &j->pictures[1], &unknown);
+    j->test->is_foreign = fault && unknown;
+    return fault;
 }
 
 static void judge(struct judging *j) {

@@ -3,6 +3,7 @@
 #include "cli/folder_scenes.h"
 #include "cli/test/test.h"
 
+#include "cli/untrusted.h"
 #include "core/nearest.h"
 #include "core/str_map.h"
 #include "files/files_walk.h"
@@ -31,19 +32,20 @@ static int read_file(struct test_run *run) {
     struct cli *cli = run->cli;
     const char *given = cli->options.test.bounds;
     str text;
-    struct files files;
     test_file_init(&run->file);
     run->file_path = given ? str_from(given) : path_join(&cli->arena, run->folder, STR(TEST_FILE_NAME));
     if (!given && !files_exist(run->file_path)) {
         run->file_path = STR("");
         return CLI_OK;
     }
-    files_init(&files, &cli->arena);
-    const enum file_status read = files_read(&files, run->file_path, FILE_BYTES_MAX, &cli->arena, &text);
+    const enum file_status read =
+        given
+            ? files_read_given(&run->files, run->file_path, FILE_BYTES_MAX, &cli->arena, &text)
+            : files_read_found(&run->files, run->file_path, run->folder, FILE_BYTES_MAX, &cli->arena, &text);
     if (read != FILE_OK) {
         cli_error(cli, session_file_code(read), run->file_path.ptr, NULL, "the file of bounds %s",
-                  file_status_text(&files, read));
-        return CLI_FILE;
+                  file_status_text(&run->files, read));
+        return read == FILE_OUTSIDE ? CLI_REFUSED : CLI_FILE;
     }
     struct diag_sink sink;
     diag_sink_init(&sink);
@@ -115,6 +117,22 @@ static void add_scene(struct plan *plan, str path) {
     } else if (!str_ends_with_nocase(path, ".xml")) {
         run->cases.items[*place - 1].scene = path;
     }
+}
+
+static int refuse(struct test_run *run, span at, const char *what) {
+    report(run, DIAG_FILE_OUTSIDE, at,
+           arena_format(&run->cli->arena,
+                        "%s is outside of the folder that " TEST_FILE_NAME " may name files in", what),
+           STR("an empty .glintrc.yaml makes its folder the one below which files may be named"));
+    return CLI_REFUSED;
+}
+
+static int judge_pictures(struct test_run *run) {
+    const str folder = test_pictures_folder(run);
+    str root;
+    return !folder.len || files_place(&run->files, folder, &root) == FILE_OK
+               ? CLI_OK
+               : refuse(run, run->file.pictures_at, "the folder of the pictures");
 }
 
 static int find_scenes(struct plan *plan) {
@@ -237,6 +255,11 @@ static int add_entry(struct plan *plan, const struct test_entry *entry, struct t
     named->scene = found ? found->scene : path_join(&cli->arena, file_folder(run), entry->scene);
     named->found_in = found ? found->found_in : STR("");
     named->name = found ? found->name : name;
+    str root;
+    if (files_place(&run->files, named->picture, &root) != FILE_OK)
+        return refuse(run, entry->picture_at, "this picture");
+    if (!found && files_place(&run->files, named->scene, &named->named_in) != FILE_OK)
+        return refuse(run, entry->scene_at, "this scene");
     if (!files_exist(named->scene) || files_is_folder(named->scene))
         return missing_scene(plan, entry);
     named->is_there = files_exist(named->picture);
@@ -247,14 +270,13 @@ static int add_entry(struct plan *plan, const struct test_entry *entry, struct t
 // A scene that the file names has those pictures, and the one of its name only if that is there.
 static bool is_replaced(struct test_run *run, const struct test_case *test, const struct test_case *named,
                         uint32_t count) {
-    struct files files;
+    struct files *files = &run->files;
     bool has_other = false;
-    files_init(&files, &run->cli->arena);
     for (uint32_t i = 0; i < count; i++) {
         if (str_equal(named[i].picture, test->picture))
             return true;
         has_other = has_other ||
-                    str_equal(files_canonical(&files, named[i].scene), files_canonical(&files, test->scene));
+                    str_equal(files_canonical(files, named[i].scene), files_canonical(files, test->scene));
     }
     return has_other && !test->is_there;
 }
@@ -399,8 +421,15 @@ int test_plan(struct test_run *run) {
     run->folder = arena_copy(&cli->arena, folder);
     str_map_init(&plan.stems, &cli->arena);
     int status = judge_folder(run);
-    if (status == CLI_OK)
+    files_init(&run->files, &cli->arena);
+    if (status == CLI_OK) {
+        cli_add_root(&run->files, run->folder);
         status = read_file(run);
+    }
+    if (status == CLI_OK && run->file_path.len) {
+        cli_add_root(&run->files, file_folder(run));
+        status = judge_pictures(run);
+    }
     if (status == CLI_OK)
         status = find_scenes(&plan);
     if (status == CLI_OK)

@@ -81,6 +81,8 @@ static bool same_load(const struct test_case *a, const struct test_case *b) {
 static struct session_options options_of(const struct tester *t, const struct test_case *test) {
     struct session_options options = cli_session_options(t->run->cli, test->scene.ptr);
     options.found_in = test->found_in;
+    options.named_in = test->named_in;
+    options.names_scene = test->named_in.len > 0;
     options.sets = test->settings.sets.items;
     options.set_count = test->settings.sets.count;
     options.width = test->settings.width;
@@ -242,13 +244,12 @@ static int trace_exactly(struct tester *t, struct test_case *test, struct sessio
 
 struct image_coding test_coding(struct test_run *run, const struct test_case *test) {
     struct image_coding coding = {0};
-    struct files files;
     struct record_read record;
     struct record_command command;
     str bytes;
-    files_init(&files, &run->cli->arena);
-    if (test->is_there && files_read(&files, test->picture, run->cli->options.limits.value[LIMIT_IMAGE_BYTES],
-                                     &run->cli->arena, &bytes) == FILE_OK) {
+    if (test->is_there &&
+        files_read(&run->files, test->picture, run->cli->options.limits.value[LIMIT_IMAGE_BYTES],
+                   &run->cli->arena, &bytes) == FILE_OK) {
         record_find(bytes, &record);
         if (record.is_there && record_read_command(record.fields[RECORD_COMMAND], &run->cli->arena, &command))
             coding = command.coding;

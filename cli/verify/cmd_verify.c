@@ -27,7 +27,7 @@ static int read_picture(struct verify *v) {
     bool unknown;
     files_init(files, &cli->arena);
     const enum file_status read =
-        files_read(files, str_from(v->path), limits->value[LIMIT_IMAGE_BYTES], &cli->arena, &v->bytes);
+        files_read_given(files, str_from(v->path), limits->value[LIMIT_IMAGE_BYTES], &cli->arena, &v->bytes);
     if (read != FILE_OK) {
         cli_error(cli, session_file_code(read), v->path, NULL, "%s", file_status_text(files, read));
         return CLI_FILE;
@@ -64,6 +64,10 @@ static int read_record(struct verify *v) {
                          "the picture was made of a scene on standard input: name a file with the scene");
     else
         v->scene = arena_copy(&cli->arena, v->command.scene).ptr;
+    if (!cli->options.trust_record) {
+        cli->named_in = path_folder(str_from(v->path));
+        cli->names_scene = cli->operand_count == 1;
+    }
     return CLI_OK;
 }
 
@@ -71,6 +75,8 @@ static int read_record(struct verify *v) {
 
 static void add_paths(struct verify *v) {
     struct cli_list *own = &v->cli->options.asset_paths;
+    if (v->cli->named_in.len)
+        v->cli->named_asset_paths = v->command.asset_path_count;
     for (uint32_t i = 0; i < v->command.asset_path_count; i++)
         *(str *)ARENA_PUSH(&v->cli->arena, own) = v->command.asset_paths[i];
 }
@@ -133,6 +139,12 @@ static int load_scene(struct verify *v) {
     const int status = good ? CLI_OK : cli_report(cli, session, false);
     if (good)
         scene_content_text(&session->resolved, v->scene_hash);
+    else if (status == CLI_REFUSED)
+        fprintf(stderr,
+                "glint: the picture names what is not below its own folder; to read it all the same: "
+                "--trust-record%s%s%s\n",
+                cli->names_scene ? ", or glint verify " : "", cli->names_scene ? v->path : "",
+                cli->names_scene ? " SCENE" : "");
     else if (session->state == SESSION_UNREADABLE && cli->operand_count == 1)
         fprintf(stderr,
                 "glint: that is the scene that the picture names; if it is elsewhere now: glint verify %s "

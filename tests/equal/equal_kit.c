@@ -41,7 +41,7 @@ void load_path(struct loaded *loaded, const char *path) {
     str text = STR("");
     begin(loaded);
     if (files_add_scene_root(&loaded->files, str_from(path)) != FILE_OK ||
-        files_read(&loaded->files, str_from(path), (uint64_t)1 << 28, &loaded->arena, &text) != FILE_OK)
+        files_read_given(&loaded->files, str_from(path), (uint64_t)1 << 28, &loaded->arena, &text) != FILE_OK)
         fail_msg("cannot read %s", path);
     loaded->main_source = source_add(&loaded->sources, SOURCE_KIND_FILE, str_from(path), text);
     struct parser_input input = input_of(loaded);

@@ -51,6 +51,31 @@ EXPORTED int open64(const char *path, int flags, ...) {
     return STRIKES(flags & O_CREAT ? "open to write" : "open") ? -1 : NEXT(open64)(path, flags, mode);
 }
 
+EXPORTED int openat64(int folder, const char *path, int flags, ...) {
+    va_list args;
+    va_start(args, flags);
+    mode_t mode = flags & (O_CREAT | O_TMPFILE) ? va_arg(args, mode_t) : 0;
+    va_end(args);
+    return STRIKES(flags & O_CREAT ? "open to write" : "open") ? -1
+                                                               : NEXT(openat64)(folder, path, flags, mode);
+}
+
+// openat2, which has no function in the library; the others that programs make this way are not of files.
+EXPORTED long syscall(long number, ...) {
+    enum {
+        CALL_OPENAT2 = 437
+    };
+    long a[6];
+    va_list args;
+    va_start(args, number);
+    for (int i = 0; i < 6; i++)
+        a[i] = va_arg(args, long);
+    va_end(args);
+    if (number == CALL_OPENAT2 && STRIKES("open"))
+        return -1;
+    return NEXT(syscall)(number, a[0], a[1], a[2], a[3], a[4], a[5]);
+}
+
 EXPORTED ssize_t read(int fd, void *bytes, size_t count) {
     char text[32];
     if (strikes(with_descriptor(text, sizeof text, "read", fd), __builtin_return_address(0), count > 1)) {
@@ -96,12 +121,20 @@ EXPORTED int rename(const char *from, const char *to) {
     return STRIKES("rename") ? -1 : NEXT(rename)(from, to);
 }
 
+EXPORTED int renameat(int from_folder, const char *from, int to_folder, const char *to) {
+    return STRIKES("rename") ? -1 : NEXT(renameat)(from_folder, from, to_folder, to);
+}
+
 EXPORTED off64_t lseek64(int fd, off64_t offset, int whence) {
     return STRIKES("lseek") ? -1 : NEXT(lseek64)(fd, offset, whence);
 }
 
 EXPORTED int mkdir(const char *path, mode_t mode) {
     return STRIKES("mkdir") ? -1 : NEXT(mkdir)(path, mode);
+}
+
+EXPORTED int mkdirat(int folder, const char *path, mode_t mode) {
+    return STRIKES("mkdir") ? -1 : NEXT(mkdirat)(folder, path, mode);
 }
 
 EXPORTED char *mkdtemp(char *path) {
@@ -114,6 +147,10 @@ EXPORTED int fstat64(int fd, struct stat64 *info) {
 
 EXPORTED DIR *opendir(const char *path) {
     return STRIKES("opendir") ? NULL : NEXT(opendir)(path);
+}
+
+EXPORTED DIR *fdopendir(int fd) {
+    return STRIKES("opendir") ? NULL : NEXT(fdopendir)(fd);
 }
 
 EXPORTED struct dirent64 *readdir64(DIR *folder) {

@@ -16,7 +16,7 @@ static str read_file(struct arena *arena, const char *path) {
     struct files files;
     str text = STR("");
     files_init(&files, arena);
-    if (files_read(&files, str_from(path), (uint64_t)1 << 26, arena, &text) != FILE_OK)
+    if (files_read_given(&files, str_from(path), (uint64_t)1 << 26, arena, &text) != FILE_OK)
         fail_msg("cannot read %s", path);
     return text;
 }

@@ -32,7 +32,7 @@ static str load(const char *path, struct arena *arena) {
     struct files files;
     str text = STR("");
     files_init(&files, arena);
-    if (files_read(&files, str_from(path), 1 << 20, arena, &text) != FILE_OK)
+    if (files_read_given(&files, str_from(path), 1 << 20, arena, &text) != FILE_OK)
         fail_msg("cannot read %s", path);
     return text;
 }

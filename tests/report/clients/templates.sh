@@ -12,7 +12,7 @@ block() {
 }
 block "$source/action.yml" 1 >find.sh
 block "$source/action.yml" 2 >check.sh
-grep -q 'check \$GLINT_PATHS' check.sh || fail "action.yml has no such step"
+grep -q 'check --untrusted \$GLINT_PATHS' check.sh || fail "action.yml has no such step"
 
 GITHUB_OUTPUT=$work/output GLINT=$glint GLINT_ACTION=$source
 export GITHUB_OUTPUT GLINT GLINT_ACTION

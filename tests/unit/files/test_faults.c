@@ -33,25 +33,25 @@ static bool fails(const char *call) {
 }
 
 // The core is compiled with 64-bit file offsets, where the name of open is open64.
-int __real_open64(const char *path, int flags, ...);
-int __wrap_open64(const char *path, int flags, ...);
+int __real_openat64(int folder, const char *path, int flags, ...);
+int __wrap_openat64(int folder, const char *path, int flags, ...);
 ssize_t __real_write(int fd, const void *bytes, size_t count);
 ssize_t __wrap_write(int fd, const void *bytes, size_t count);
 int __real_fsync(int fd);
 int __wrap_fsync(int fd);
 int __real_close(int fd);
 int __wrap_close(int fd);
-int __real_rename(const char *from, const char *to);
-int __wrap_rename(const char *from, const char *to);
+int __real_renameat(int from_folder, const char *from, int to_folder, const char *to);
+int __wrap_renameat(int from_folder, const char *from, int to_folder, const char *to);
 void *__real_malloc(size_t size);
 void *__wrap_malloc(size_t size);
 
-int __wrap_open64(const char *path, int flags, ...) {
+int __wrap_openat64(int folder, const char *path, int flags, ...) {
     va_list args;
     va_start(args, flags);
     int mode = flags & O_CREAT ? va_arg(args, int) : 0;
     va_end(args);
-    return fails("open") ? -1 : __real_open64(path, flags, mode);
+    return fails("open") ? -1 : __real_openat64(folder, path, flags, mode);
 }
 
 // Error 0: half of it is written.
@@ -73,8 +73,8 @@ int __wrap_close(int fd) {
     return -1;
 }
 
-int __wrap_rename(const char *from, const char *to) {
-    return fails("rename") ? -1 : __real_rename(from, to);
+int __wrap_renameat(int from_folder, const char *from, int to_folder, const char *to) {
+    return fails("rename") ? -1 : __real_renameat(from_folder, from, to_folder, to);
 }
 
 void *__wrap_malloc(size_t size) {

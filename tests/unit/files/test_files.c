@@ -241,7 +241,7 @@ static void relative_scenes_work(void **state) {
     str root = f->files.roots.items[0];
     files_add_overlay(&f->files, STR("new.yaml"), STR("glint: 1"));
     str contents;
-    enum file_status overlay = files_read(&f->files, at(f, "in/new.yaml"), 100, &f->into, &contents);
+    enum file_status overlay = files_read_given(&f->files, at(f, "in/new.yaml"), 100, &f->into, &contents);
     assert_int_equal(chdir(before), 0);
     assert_true(str_equal(root, at(f, "in")));
     assert_int_equal(status, FILE_OK);
@@ -251,7 +251,7 @@ static void relative_scenes_work(void **state) {
 }
 
 static enum file_status read_file(struct fixture *f, const char *name, uint64_t cap, str *contents) {
-    return files_read(&f->files, at(f, name), cap, &f->into, contents);
+    return files_read_given(&f->files, at(f, name), cap, &f->into, contents);
 }
 
 static void reads_whole_files_with_a_nul_behind(void **state) {
@@ -306,8 +306,10 @@ static void refuses_what_is_no_regular_file_at_once(void **state) {
     // A pipe without a writer would block an open that waits.
     assert_int_equal(mkfifo(scratch_path(&f->scratch, "pipe"), 0666), 0);
     assert_int_equal(read_file(f, "pipe", 100, &contents), FILE_NOT_REGULAR);
-    assert_int_equal(files_read(&f->files, STR("/dev/zero"), 100, &f->into, &contents), FILE_NOT_REGULAR);
-    assert_int_equal(files_read(&f->files, STR("/dev/null"), 100, &f->into, &contents), FILE_NOT_REGULAR);
+    assert_int_equal(files_read_given(&f->files, STR("/dev/zero"), 100, &f->into, &contents),
+                     FILE_NOT_REGULAR);
+    assert_int_equal(files_read_given(&f->files, STR("/dev/null"), 100, &f->into, &contents),
+                     FILE_NOT_REGULAR);
     make_link(f, "/dev/zero", "zero");
     assert_int_equal(read_file(f, "zero", 100, &contents), FILE_NOT_REGULAR);
     struct sockaddr_un name = {.sun_family = AF_UNIX};
@@ -327,7 +329,7 @@ static void reports_what_cannot_be_read(void **state) {
     str contents;
     assert_int_equal(read_file(f, "nothing", 100, &contents), FILE_MISSING);
     assert_int_equal(read_file(f, "in/scene.yaml/x", 100, &contents), FILE_MISSING);
-    assert_int_equal(files_read(&f->files, STR(""), 100, &f->into, &contents), FILE_MISSING);
+    assert_int_equal(files_read_given(&f->files, STR(""), 100, &f->into, &contents), FILE_MISSING);
     make_link(f, "ring", "ring");
     assert_int_equal(read_file(f, "ring", 100, &contents), FILE_UNREADABLE);
     assert_int_equal(f->files.system_error, ELOOP);
@@ -457,7 +459,7 @@ static void read_without_room(void *context) {
     str contents;
     str name = at(f, "in/scene.yaml");
     f->arena.cap_bytes = f->arena.used_bytes;
-    files_read(&f->files, name, 100, &f->into, &contents);
+    files_read_given(&f->files, name, 100, &f->into, &contents);
 }
 
 static void memory_for_paths_is_guarded(void **state) {

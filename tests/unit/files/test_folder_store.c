@@ -232,6 +232,43 @@ static void test_where_it_lies(void **state) {
     free(kept);
 }
 
+// Who may write into the folder may have put anything there. A pipe must not be waited for, and a link
+// neither read nor written through.
+static void test_only_files_are_entries(void **state) {
+    (void)state;
+    struct folder_store store = fresh(1000);
+    char at[PATH_MAX + 20], elsewhere[PATH_MAX + 20], text[20] = "";
+    struct stat info;
+    snprintf(elsewhere, sizeof elsewhere, "%s/elsewhere", folder);
+    FILE *file = fopen(elsewhere, "w");
+    assert_non_null(file);
+    fputs("precious", file);
+    fclose(file);
+    alarm(20); // of a wait that must not be
+    for (int kind = 0; kind < 3; kind++) {
+        const char *name = kind == 0 ? "pipe" : kind == 1 ? "link" : "nowhere";
+        snprintf(at, sizeof at, "%s/%s", folder, name);
+        assert_int_equal(kind == 0 ? mkfifo(at, 0666) : symlink(kind == 1 ? "elsewhere" : "new", at), 0);
+        assert_false(holds(&store, name, "precious"));
+        assert_true(keep(&store, name, "entry"));
+        assert_true(holds(&store, name, "entry"));
+        assert_int_equal(lstat(at, &info), 0);
+        assert_true(S_ISREG(info.st_mode));
+    }
+    snprintf(at, sizeof at, "%s/folder", folder);
+    assert_int_equal(mkdir(at, 0777), 0);
+    assert_false(keep(&store, "folder", "entry"));
+    alarm(0);
+    file = fopen(elsewhere, "r");
+    assert_non_null(file);
+    assert_non_null(fgets(text, sizeof text, file));
+    fclose(file);
+    assert_string_equal(text, "precious");
+    snprintf(at, sizeof at, "%s/new", folder);
+    assert_int_not_equal(lstat(at, &info), 0);
+    clear();
+}
+
 // Values of the specification's own program.
 static void test_hash(void **state) {
     (void)state;
@@ -251,13 +288,10 @@ static void test_hash(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_seal_names_the_entry),
-        cmocka_unit_test(test_a_seal_sees_damage),
-        cmocka_unit_test(test_writers_do_not_meet),
-        cmocka_unit_test(test_entries_come_back),
-        cmocka_unit_test(test_the_oldest_go),
-        cmocka_unit_test(test_nothing_is_an_error),
-        cmocka_unit_test(test_hash),
+        cmocka_unit_test(test_a_seal_names_the_entry), cmocka_unit_test(test_a_seal_sees_damage),
+        cmocka_unit_test(test_writers_do_not_meet),    cmocka_unit_test(test_entries_come_back),
+        cmocka_unit_test(test_the_oldest_go),          cmocka_unit_test(test_nothing_is_an_error),
+        cmocka_unit_test(test_only_files_are_entries), cmocka_unit_test(test_hash),
         cmocka_unit_test(test_where_it_lies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

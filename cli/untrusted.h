@@ -1,0 +1,17 @@
+// --untrusted: what a command may still do with files that come from anyone.
+//
+// Before it looks at them the process gives up all but reading below the folders of its operands and writing
+// where its options say (files/sandbox.h). Thread safety: as cli.h.
+#ifndef GLINT_CLI_UNTRUSTED_H
+#define GLINT_CLI_UNTRUSTED_H
+
+#include "cli/cli.h"
+
+// Does nothing without the option. `searched`: a folder that no operand names; NULL: none. CLI_OK, or an exit
+// code with the mistake in cli->sink.
+int cli_enter_untrusted(struct cli *cli, const struct cli_command *command, const char *searched);
+// Below which files may be named by what is in a folder: the folder of the nearest .glintrc.yaml, else the
+// work tree of git, else the folder itself.
+void cli_add_root(struct files *files, str folder);
+
+#endif
