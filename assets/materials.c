@@ -185,7 +185,7 @@ static void report_unknown(struct loader *loader, const struct ir_map_entry *ent
              "no face of the mesh '%.*s' has the material '%.*s'", STR_ARG(mesh->path), STR_ARG(entry->from));
     if (input->sink->errors > SEARCHES_MAX)
         return;
-    struct nearest search = nearest_begin(entry->from);
+    struct nearest search = nearest_begin_within(entry->from, &input->sink->search_left);
     struct strbuf names;
     strbuf_init(&names);
     uint32_t named = 0;

@@ -172,7 +172,7 @@ static const struct mend_search *search_for(struct resolving *resolving, const s
     if (resolving->search_count == SEARCHES_MAX)
         return NULL;
     struct mend_search *search = &resolving->searches[resolving->search_count++];
-    *search = mend_begin(&resolving->loader->scratch, name);
+    *search = mend_begin(resolving->loader->input->sink, &resolving->loader->scratch, name);
     for (uint32_t i = 0; i < list->count; i++)
         mend_offer_str(search, list->items[i].name, (int)i);
     *number = resolving->search_count;
@@ -224,19 +224,21 @@ static void find_focus(struct resolving *resolving, struct named_list *things) {
     const struct ir_scene *scene = resolving->scene;
     const int row = schema_find_row(&SCHEMA_CAMERA, STR("focus_on"));
     bool incomplete = loader->incomplete || scene->head.poisoned != 0;
+    uint32_t searches = 0;
     for (uint32_t i = 0; i < scene->cameras.count && !incomplete; i++) {
         const struct ir_camera *camera = &scene->cameras.items[i];
         const str name = camera->focus_on;
         if (name.len == 0 || (camera->head.poisoned & bind_bit((uint32_t)row)) || is_body(find(things, name)))
             continue;
-        struct mend_search search = mend_begin(&loader->scratch, name);
+        struct mend_search search = mend_begin(loader->input->sink, &loader->scratch, name);
         const span at = ir_place_value(&loader->output->origin, &camera->head, &SCHEMA_CAMERA, "focus_on");
         diag_add(loader->input->sink, DIAG_UNKNOWN_BODY, at,
                  find(things, name) ? "'%.*s' is a light, not a body" : "there is no body '%.*s'",
                  STR_ARG(say_text(&loader->scratch, name)));
-        for (uint32_t k = 0; k < things->count; k++)
+        for (uint32_t k = 0; k < things->count && searches < SEARCHES_MAX; k++)
             if (is_body(&things->items[k]))
                 mend_offer_str(&search, things->items[k].name, (int)k);
+        searches++;
         if (search.best) {
             diag_help(loader->input->sink, "did you mean '%s'?", search.best);
             const str written = source_text(loader->input->sources, at);
