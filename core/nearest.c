@@ -98,7 +98,8 @@ void nearest_offer(struct nearest *search, str candidate) {
         !take_cost(search, candidate.len))
         return;
     const uint64_t letters = letters_of(candidate);
-    if (count_bits(search->letters & ~letters) > allowed || count_bits(letters & ~search->letters) > allowed ||
+    if (count_bits(search->letters & ~letters) > allowed ||
+        count_bits(letters & ~search->letters) > allowed ||
         !take_cost(search, (uint64_t)search->word.len * candidate.len))
         return;
     unsigned distance = distance_up_to(search->word, candidate, allowed);

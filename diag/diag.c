@@ -9,7 +9,7 @@
 
 enum {
     SINK_BYTES_MAX = 64 * 1024 * 1024,
-    TEXT_BYTES_MAX = 2000, // of one message, note or help line
+    TEXT_BYTES_MAX = 2000,               // of one message, note or help line
     SEARCH_COST_MAX = 100 * 1000 * 1000, // of all suggestions: some tenths of a second
 };
 

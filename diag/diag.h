@@ -77,7 +77,7 @@ struct diag_sink {
     uint32_t dropped_of[DIAG_CODE_COUNT];
     uint64_t search_left; // what looking for suggestions may still cost (core/nearest.h)
     struct diag spare;    // stands for a diagnostic that was dropped
-    bool last_kept;    // whether notes, help and fix have something to belong to
+    bool last_kept;       // whether notes, help and fix have something to belong to
 };
 
 // A sink keeps this many diagnostics by itself.

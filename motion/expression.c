@@ -35,9 +35,9 @@ enum {
 
 // Takes its values from the end of a list, and puts one there.
 struct expression_step {
-    uint8_t kind;     // step_kind
-    uint8_t function; // STEP_CALL: in `functions`
-    uint16_t count;   // of its arguments
+    uint8_t kind;        // step_kind
+    uint8_t function;    // STEP_CALL: in `functions`
+    uint16_t count;      // of its arguments
     uint32_t begin, end; // in the text: the call
     double number;
 };
@@ -390,7 +390,9 @@ bool expression_at(const struct expression *expression, const struct expression_
     for (uint32_t i = 0; i < expression->count; i++) {
         const struct expression_step *step = &expression->steps[i];
         if (step->kind <= STEP_TIME) {
-            *end++ = step->kind == STEP_NUMBER ? step->number : step->kind == STEP_FRAME ? at->frame : at->time;
+            *end++ = step->kind == STEP_NUMBER  ? step->number
+                     : step->kind == STEP_FRAME ? at->frame
+                                                : at->time;
         } else if (step->kind == STEP_NEGATE) {
             end[-1] = -end[-1];
         } else if (step->kind == STEP_CALL) {
@@ -416,8 +418,7 @@ bool expression_at(const struct expression *expression, const struct expression_
 bool expression_value(str text, const struct expression_at *at, double *value,
                       struct expression_fault *fault) {
     struct expression expression;
-    struct scan s = {
-        .text = text, .steps = heap_array(text.len + 1, sizeof *s.steps), .fault = fault};
+    struct scan s = {.text = text, .steps = heap_array(text.len + 1, sizeof *s.steps), .fault = fault};
     const bool good = compile(&s, &expression) && expression_at(&expression, at, value, fault);
     if (!good)
         *value = 0;

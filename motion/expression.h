@@ -1,10 +1,10 @@
 // Numbers that depend on the frame: an expression such as `4*cos(tau*frame/100)`, and texts with such
 // expressions in braces.
 //
-// Input: text, compiled once; which frame it is. Output: a finite number, or the text with numbers in place of
-// braces. Errors: a fault with its place in the text. An expression is `+ - * / % ^`, parentheses, numbers, the
-// names and functions that expression_names lists; angles are in radians. Its value depends on its text and the
-// frame alone. Ownership: what is compiled lies in the arena. Thread safety: pure.
+// Input: text, compiled once; which frame it is. Output: a finite number, or the text with numbers in place
+// of braces. Errors: a fault with its place in the text. An expression is `+ - * / % ^`, parentheses,
+// numbers, the names and functions that expression_names lists; angles are in radians. Its value depends on
+// its text and the frame alone. Ownership: what is compiled lies in the arena. Thread safety: pure.
 #ifndef GLINT_MOTION_EXPRESSION_H
 #define GLINT_MOTION_EXPRESSION_H
 

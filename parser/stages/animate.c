@@ -88,12 +88,12 @@ static void choose_step(struct motion *motion) {
     motion->step = (int32_t)step;
     if (step == 1)
         return;
-    diag_add(
-        loader->input->sink, DIAG_FRAMES_SKIPPED,
-        ir_place_value(&loader->output->origin, &motion->animation->head, &SCHEMA_ANIMATION, "frames"),
-        "one frame in %d is checked: %d frames of %llu operations are more than the limit animation-operations "
-        "of %llu",
-        (int)step, (int)frames, (unsigned long long)cost, (unsigned long long)most);
+    diag_add(loader->input->sink, DIAG_FRAMES_SKIPPED,
+             ir_place_value(&loader->output->origin, &motion->animation->head, &SCHEMA_ANIMATION, "frames"),
+             "one frame in %d is checked: %d frames of %llu operations are more than the limit "
+             "animation-operations "
+             "of %llu",
+             (int)step, (int)frames, (unsigned long long)cost, (unsigned long long)most);
     diag_help(loader->input->sink, "--limit animation-operations=%llu checks all of them",
               (unsigned long long)(frames * cost));
 }

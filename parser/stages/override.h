@@ -25,8 +25,8 @@ enum {
     OVERRIDE_STEPS_MAX = 16
 };
 
-// What many paths into one scene share, which stays as it is meanwhile: entries by their names, each list's when
-// it is first asked.
+// What many paths into one scene share, which stays as it is meanwhile: entries by their names, each list's
+// when it is first asked.
 struct override_names {
     const void *list;
     struct str_map entries; // 1 + index
@@ -44,10 +44,10 @@ struct override {
     uint32_t source; // the option's text
     str text;
     struct override_index *index; // of a track's path; NULL: the scene changes from path to path
-    bool is_track;        // the path is a track's, which has no '=': findings are about that
-    span track;           // its text in the file
-    uint32_t value_begin; // after '='
-    span path;            // all of it
+    bool is_track;                // the path is a track's, which has no '=': findings are about that
+    span track;                   // its text in the file
+    uint32_t value_begin;         // after '='
+    span path;                    // all of it
     struct override_step steps[OVERRIDE_STEPS_MAX];
     uint32_t step_count;
 };

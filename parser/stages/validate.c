@@ -221,8 +221,7 @@ static bool check_edges(const struct rules *rules, const struct schema_element *
     if (!known[0] || !known[1] || !is_parallel(edge_u, edge_v))
         return known[0] && known[1];
     diag_add(rules->sink, DIAG_DEGENERATE_RECTANGLE, value_place(rules, schema, memory, "edge_v"),
-             "the edges of %.*s are parallel, which leaves no area",
-             STR_ARG(owner(rules, whole, name)));
+             "the edges of %.*s are parallel, which leaves no area", STR_ARG(owner(rules, whole, name)));
     diag_note(rules->sink, value_place(rules, schema, memory, "edge_u"), "'edge_u' is here");
     return false;
 }

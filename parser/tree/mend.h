@@ -31,8 +31,8 @@ str mend_like(struct arena *arena, str written, str replacement);
 str mend_snake(struct arena *arena, str text);
 
 // The nearest of several candidates, compared in snake_case; ties are counted. The beginning of a candidate,
-// of three letters and more, is near too. What all searches of one sink cost is limited; candidates that differ
-// in style alone are always found, if they are no longer than 128 bytes.
+// of three letters and more, is near too. What all searches of one sink cost is limited; candidates that
+// differ in style alone are always found, if they are no longer than 128 bytes.
 struct mend_search {
     struct arena *arena;
     str word; // as written
