@@ -216,13 +216,15 @@ static void report_unfit(const struct loader *loader, const struct assets *out) 
 static void check_refraction(struct loader *loader, const struct ir_model *model,
                              const struct assets_model *loaded_model, struct loaded_mesh *loaded, span at) {
     const struct mesh *mesh = loaded->mesh;
-    if (mesh->closed)
+    if (mesh->closed || loaded->no_refraction == loaded_model->group_material)
         return;
     bool refracts = false;
     for (uint32_t i = 0; i < mesh->group_count; i++)
         refracts |= loader->materials.items[loaded_model->group_material[i]].albedo.refraction > 0;
-    if (!refracts)
+    if (!refracts) {
+        loaded->no_refraction = loaded_model->group_material;
         return;
+    }
     struct diag_sink *sink = loader->input->sink;
     span place = model->material.name.len || model->material.index != IR_NO_INDEX
                      ? ir_place_value(loader->input->origin, &model->head, &SCHEMA_MODEL, "material")

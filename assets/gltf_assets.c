@@ -46,9 +46,14 @@ struct finding {
 static void find_material(void *context) {
     struct finding *f = context;
     const struct gltf *gltf = &f->document->gltf;
-    for (f->found = 0; f->found < gltf->materials.count; f->found++)
-        if (str_equal(gltf_material_name(gltf, f->found), f->name))
-            return;
+    struct str_map *numbers = &f->document->material_numbers;
+    if (!numbers->arena) {
+        str_map_init(numbers, &f->document->arena);
+        for (uint32_t i = gltf->materials.count; i-- > 0;)
+            *str_map_at(numbers, gltf_material_name(gltf, i)) = i + 1;
+    }
+    const uint32_t found = str_map_find(numbers, f->name);
+    f->found = found ? found - 1 : gltf->materials.count;
 }
 
 bool loader_document_material(const struct loader *loader, struct loaded_mesh *loaded, str group,

@@ -28,6 +28,11 @@ struct loaded_mesh {
     struct str_map library_paths; // of the material files that were read: each is read once
     struct mtl_materials materials;
     uint32_t *group_material; // from the material files; IR_NO_INDEX: not asked for yet
+    struct shared_materials {
+        uint32_t *groups; // of the last model without a map; NULL: none yet
+        uint32_t material;
+    } shared[2]; // with the materials of the mesh, and with a material of the model's
+    const uint32_t *no_refraction, *no_image; // lists of materials that were found to have none
     struct loaded_mesh *next;
 };
 

@@ -185,7 +185,7 @@ static void report_unknown(struct loader *loader, const struct ir_map_entry *ent
              "no face of the mesh '%.*s' has the material '%.*s'", STR_ARG(mesh->path), STR_ARG(entry->from));
     if (input->sink->errors > SEARCHES_MAX)
         return;
-    struct nearest search = nearest_begin(entry->from);
+    struct nearest search = nearest_begin_within(entry->from, &input->sink->search_left);
     struct strbuf names;
     strbuf_init(&names);
     uint32_t named = 0;
@@ -224,6 +224,12 @@ uint32_t *loader_group_materials(struct loader *loader, const struct ir_model *m
                                  struct loaded_mesh *loaded) {
     const struct mesh *mesh = loaded->mesh;
     const struct ir_scene *scene = loader->input->scene;
+    // Models without a map of their own share a list with the one before of the same material.
+    const bool has_material = is_written(&model->material), has_map = model->material_map.count > 0;
+    const uint32_t whole = has_material ? assets_material(scene, &model->material) : IR_NO_INDEX;
+    struct shared_materials *shared = &loaded->shared[has_material];
+    if (!has_map && shared->groups && shared->material == whole)
+        return shared->groups;
     uint32_t *materials = ARENA_ARRAY(loader->input->arena, uint32_t, mesh->group_count);
     for (uint32_t i = 0; i < mesh->group_count; i++)
         materials[i] = IR_NO_INDEX;
@@ -240,8 +246,9 @@ uint32_t *loader_group_materials(struct loader *loader, const struct ir_model *m
     for (uint32_t i = 0; i < mesh->group_count; i++) {
         if (materials[i] != IR_NO_INDEX)
             continue;
-        materials[i] = is_written(&model->material) ? assets_material(scene, &model->material)
-                                                    : library_material(loader, loaded, i);
+        materials[i] = has_material ? whole : library_material(loader, loaded, i);
     }
+    if (!has_map)
+        *shared = (struct shared_materials){materials, whole};
     return materials;
 }

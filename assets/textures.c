@@ -201,10 +201,14 @@ static void report_bare(struct loader *loader, const struct assets_model *model,
 void loader_load_coordinates(struct loader *loader, const struct assets_model *model,
                              struct loaded_mesh *loaded) {
     bool wanted = false;
+    if (loaded->no_image == model->group_material)
+        return;
     for (uint32_t i = 0; i < loaded->mesh->group_count; i++)
         wanted |= has_image(loader, model->group_material[i]);
-    if (!wanted)
+    if (!wanted) {
+        loaded->no_image = model->group_material;
         return;
+    }
     if (!loaded->mesh->textured && !loaded->coordinates_read)
         read_guarded(loader, loaded);
     if (!loaded->coordinates_read)

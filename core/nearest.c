@@ -55,17 +55,52 @@ unsigned nearest_distance(str a, str b) {
     return distance_up_to(a, b, UINT_MAX - 1);
 }
 
+// Which letters the word has, a bit each; some share one.
+static uint64_t letters_of(str word) {
+    uint64_t letters = 0;
+    for (size_t i = 0; i < word.len; i++)
+        letters |= UINT64_C(1) << (fold(word.ptr[i]) & 63);
+    return letters;
+}
+
+static unsigned count_bits(uint64_t bits) {
+    unsigned count = 0;
+    for (; bits; bits &= bits - 1)
+        count++;
+    return count;
+}
+
+struct nearest nearest_begin_within(str word, uint64_t *left) {
+    return (struct nearest){
+        .word = word, .best_distance = UINT_MAX, .letters = letters_of(word), .left = left};
+}
+
 struct nearest nearest_begin(str word) {
-    return (struct nearest){.word = word, .best_distance = UINT_MAX};
+    return nearest_begin_within(word, NULL);
+}
+
+static bool take_cost(struct nearest *search, uint64_t cost) {
+    if (!search->left)
+        return true;
+    const bool enough = *search->left >= cost;
+    *search->left = enough ? *search->left - cost : 0;
+    return enough;
 }
 
 void nearest_offer(struct nearest *search, str candidate) {
     bool is_longer = search->word.len > candidate.len;
     size_t longer = is_longer ? search->word.len : candidate.len;
     unsigned allowed = longer < 3 ? 0 : (unsigned)((longer + 2) / 3);
-    // The distance is at least the difference of the lengths, which costs nothing.
+    // The distance is at least the difference of the lengths, and the number of letters that one word has and
+    // the other lacks.
     size_t difference = longer - (is_longer ? candidate.len : search->word.len);
-    if (difference > allowed || difference >= search->best_distance)
+    if (longer > WORD_MAX || difference > allowed || difference >= search->best_distance ||
+        !take_cost(search, candidate.len))
+        return;
+    const uint64_t letters = letters_of(candidate);
+    if (count_bits(search->letters & ~letters) > allowed ||
+        count_bits(letters & ~search->letters) > allowed ||
+        !take_cost(search, (uint64_t)search->word.len * candidate.len))
         return;
     unsigned distance = distance_up_to(search->word, candidate, allowed);
     if (distance < search->best_distance) {

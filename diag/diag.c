@@ -9,11 +9,12 @@
 
 enum {
     SINK_BYTES_MAX = 64 * 1024 * 1024,
-    TEXT_BYTES_MAX = 2000, // of one message, note or help line
+    TEXT_BYTES_MAX = 2000,               // of one message, note or help line
+    SEARCH_COST_MAX = 100 * 1000 * 1000, // of all suggestions: some tenths of a second
 };
 
 void diag_sink_init(struct diag_sink *sink) {
-    *sink = (struct diag_sink){.kept_max = DIAG_KEPT_MAX};
+    *sink = (struct diag_sink){.kept_max = DIAG_KEPT_MAX, .search_left = SEARCH_COST_MAX};
     arena_init(&sink->arena, SINK_BYTES_MAX);
 }
 

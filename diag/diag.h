@@ -77,8 +77,9 @@ struct diag_sink {
     uint32_t notes;
     uint32_t dropped; // did not fit into the sink; counted above too
     uint32_t dropped_of[DIAG_CODE_COUNT];
-    struct diag spare; // stands for a diagnostic that was dropped
-    bool last_kept;    // whether notes, help and fix have something to belong to
+    uint64_t search_left; // what looking for suggestions may still cost (core/nearest.h)
+    struct diag spare;    // stands for a diagnostic that was dropped
+    bool last_kept;       // whether notes, help and fix have something to belong to
 };
 
 // A sink keeps this many diagnostics by itself.

@@ -59,7 +59,8 @@ struct lint {
         struct lint_mesh **items;
         uint32_t count, capacity;
     } meshes;
-    struct view *views; // one per camera, or the automatic one
+    uint64_t pairs_spent; // by lint_find_pairs: boxes against boxes, at most
+    struct view *views;   // one per camera, or the automatic one
     uint32_t view_count;
 };
 

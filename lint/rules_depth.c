@@ -17,7 +17,7 @@ enum {
     COLUMNS = 96, // of the grid, at most
     HITS_MAX = 256,
     WORK_MAX = 20000000,    // rays times bodies
-    RAY_WORK_MAX = 1 << 14, // triangles that one ray may try: a fan of needles has them all in its way
+    RAY_WORK_MAX = 1 << 12, // triangles that one ray may try: a fan of needles has them all in its way
 };
 
 struct crossing {
@@ -276,7 +276,8 @@ void lint_depth_short(struct lint *lint) {
     glass.rows = glass.rows > 4 * glass.columns ? 4 * glass.columns : glass.rows;
     glass.layers = ARENA_ARRAY(lint->arena, uint32_t, heap_times(glass.columns, glass.rows));
     glass.first = ARENA_ARRAY(lint->arena, uint32_t, heap_times(glass.columns, glass.rows));
-    for (uint32_t i = 0; i < lint->view_count; i++) {
+    const uint64_t work = (uint64_t)glass.columns * glass.rows * lint->body_count;
+    for (uint32_t i = 0; i < lint->view_count && i * work <= WORK_MAX; i++) {
         glass.camera = &lint->views[i].camera;
         look(&glass);
     }

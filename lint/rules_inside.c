@@ -5,7 +5,7 @@
 #include "grammar/ir.h"
 
 enum {
-    WORK_MAX = 50000000, // bodies against trees of cameras, or lights: further ones are not looked at
+    WORK_MAX = 8000000, // bodies against trees of cameras, or lights: further ones are not looked at
 };
 
 // ---- cameras
@@ -40,6 +40,7 @@ struct camera_search {
     struct lint *lint;
     const struct lint_body *body;
     const struct lint_body **found; // for each camera: the first body that it is inside
+    uint32_t found_count;
 };
 
 static bool take_camera(void *context, const void *of) {
@@ -47,8 +48,10 @@ static bool take_camera(void *context, const void *of) {
     const struct ir_camera *camera = of;
     const size_t i = (size_t)(camera - s->lint->ir->cameras.items);
     if (!s->found[i] && lint_is_inside(s->lint, s->body, s->lint->views[i].camera.position) &&
-        !(s->body->is_opaque && holds_light(s->lint, s->body)))
+        !(s->body->is_opaque && holds_light(s->lint, s->body))) {
         s->found[i] = s->body;
+        s->found_count++;
+    }
     return true;
 }
 
@@ -65,7 +68,7 @@ void lint_camera_inside(struct lint *lint) {
         items[i] = (struct lint_box_item){{position, position}, &lint->ir->cameras.items[i]};
     }
     lint_box_tree_build(&tree, lint->arena, items, count);
-    for (uint32_t k = 0; k < lint->body_count && work < WORK_MAX; k++) {
+    for (uint32_t k = 0; k < lint->body_count && s.found_count < count && work < WORK_MAX; k++) {
         s.body = &lint->bodies[k];
         if (s.body->is->closed && lint_is_there(s.body))
             work += lint_box_tree_in_box(&tree, &s.body->box, 0, take_camera, &s);

@@ -76,7 +76,7 @@ static bool find_camera(struct lint *lint, const struct ir_light *light) {
 }
 
 enum {
-    WORK_MAX = 50000000, // lights times bodies: further ones are not looked at
+    WORK_MAX = 20000000, // lights times bodies: further ones are not looked at
 };
 
 // Whether it is a lamp in the middle of the light: rays to the light end before it.

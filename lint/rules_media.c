@@ -6,6 +6,7 @@
 // below the faces of one that are inside the other. Bodies that touch are apart: a share of the smaller one's
 // size counts as touching, since what is written with few digits overlaps by a hair.
 #include "lint/body_pairs.h"
+#include "lint/box_tree.h"
 #include "lint/lint_parts.h"
 
 #include "grammar/ir.h"
@@ -16,9 +17,10 @@
 #define TOUCHING 0x1p-12 // of the size of the smaller body
 
 enum {
-    FACES_MAX = 10000000, // of meshes that are looked at
-    SAMPLES = 512,        // points of one mesh that are looked for in another
-    NOTED = 3,            // other bodies that one finding names
+    FACES_MAX = 10000000,  // of meshes that are looked at
+    CROWDS_MAX = 20000000, // bodies around cameras: further cameras are not looked at
+    SAMPLES = 512,         // points of one mesh that are looked for in another
+    NOTED = 3,             // other bodies that one finding names
 };
 
 enum finding {
@@ -399,11 +401,35 @@ static void report_nested(struct lint *lint, const struct media *media) {
     }
 }
 
+static bool count_box(void *context, const void *of) {
+    (void)of;
+    return ++*(uint32_t *)context <= SCENE_MEDIA_MOST;
+}
+
+static void find_media(struct lint *lint, struct lint_box_tree *tree) {
+    struct lint_box_item *items = ARENA_ARRAY(lint->arena, struct lint_box_item, lint->body_count);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < lint->body_count; i++)
+        if (scene_is_medium(lint->scene, lint->bodies[i].is))
+            items[count++] = (struct lint_box_item){lint->bodies[i].box, &lint->bodies[i]};
+    lint_box_tree_build(tree, lint->arena, items, count);
+}
+
 // The same of cameras, where the bodies around one need not be inside each other.
 static void report_crowded(struct lint *lint) {
-    for (uint32_t i = 0; i < lint->ir->cameras.count; i++) {
+    struct lint_box_tree tree;
+    uint64_t work = 0;
+    find_media(lint, &tree);
+    for (uint32_t i = 0; i < lint->ir->cameras.count && work < CROWDS_MAX; i++) {
         const struct ir_camera *camera = &lint->ir->cameras.items[i];
-        const uint32_t crowd = scene_media_crowd(lint->scene, lint->views[i].camera.position);
+        const vec3 position = lint->views[i].camera.position;
+        const struct lint_box point = {position, position};
+        uint32_t boxes = 0;
+        work += lint_box_tree_in_box(&tree, &point, 0, count_box, &boxes);
+        if (boxes <= SCENE_MEDIA_MOST)
+            continue;
+        work += lint->body_count;
+        const uint32_t crowd = scene_media_crowd(lint->scene, position);
         if (!crowd)
             continue;
         diag_add(lint->sink, DIAG_LIMIT,

@@ -6,7 +6,10 @@
 // alike.
 #include "lint/lint_parts.h"
 
+#include "core/heap.h"
 #include "grammar/ir.h"
+
+#include <string.h>
 
 enum {
     COLUMNS = 64,          // of the grid, at most
@@ -300,13 +303,16 @@ void lint_too_fine(struct lint *lint) {
         any |= make_bare(lint, m, &l.bare[m]);
     struct shown *worst = any ? ARENA_ARRAY(lint->arena, struct shown, materials) : NULL;
     uint64_t work = 0;
-    for (uint32_t c = 0; any && c < lint->view_count; c++) {
+    l.shown = any ? ARENA_ARRAY(lint->arena, struct shown, materials) : NULL;
+    for (uint32_t c = 0; any && c < lint->view_count && work < WORK_MAX; c++) {
         l.camera = &lint->views[c].camera;
-        l.shown = ARENA_ARRAY(lint->arena, struct shown, materials);
+        memset(l.shown, 0, heap_times(materials, sizeof *l.shown));
+        work += materials;
         l.aspect = (double)image->width / image->height;
         l.rows = image->height * sqrt(samples);
         for (uint32_t i = 0; i < lint->body_count && work < WORK_MAX; i++) {
             l.body = &lint->bodies[i];
+            work++;
             if (!shows_any(&l, l.body))
                 continue;
             work += TRIANGLES_MOST;

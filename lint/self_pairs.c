@@ -18,11 +18,12 @@ enum {
     GROUP = 16,              // leaves that walk the tree together
     NEAR_MAX = 1024,         // leaves that they may find; where there are more, each walks by itself
     LANES = 8,               // of them that are compared at once
-    WORK_MAX = 1 << 28,      // for the mesh: boxes against boxes
+    WORK_MAX = 1 << 26,      // for all meshes: boxes against boxes
     LEAF_WORK_MIN = 4096,    // for each leaf: some thousand in a good mesh, all of them in a fan of needles
     LEAF_WORK_MAX = 32768,   // where all triangles lie on each other, a few thousand pairs tell enough
     TRIANGLES_MAX = 1 << 23, // larger meshes are not searched: it would take gigabytes
     PAIR_WORK = 32,          // of two triangles, in boxes
+    LEAF_BOXES = LINT_LEAF + LINT_LEAF * LINT_LEAF * PAIR_WORK, // what a leaf against a leaf takes at most
 };
 
 // Boxes of a leaf's triangles, in floats.
@@ -37,6 +38,7 @@ struct self {
     bool refracts;
     bool is_mutual;     // mark the other triangle too
     struct quad *quads; // of each leaf
+    uint32_t leaf_work; // for each leaf, in boxes
     uint32_t *crossed;  // in the order of the tree: the first triangle that crosses, plus 1
     uint32_t *covered;  // the first one in its plane that covers a part of it, plus 1
 };
@@ -187,12 +189,8 @@ static bool visit(void *context, uint32_t first, uint32_t count) {
 
 static void begin_leaf(const struct self *self, uint32_t at, struct leaf *leaf) {
     const struct lint_tree *tree = self->tree;
-    *leaf = (struct leaf){.self = self,
-                          .first = at * LINT_LEAF,
-                          .work_left = WORK_MAX / tree->leaf_count,
-                          .all = lint_box_empty()};
-    leaf->work_left = leaf->work_left > LEAF_WORK_MIN ? leaf->work_left : LEAF_WORK_MIN;
-    leaf->work_left = leaf->work_left < LEAF_WORK_MAX ? leaf->work_left : LEAF_WORK_MAX;
+    *leaf = (struct leaf){
+        .self = self, .first = at * LINT_LEAF, .work_left = self->leaf_work, .all = lint_box_empty()};
     leaf->count = lint_tree_leaf_size(tree, at);
     for (uint32_t k = 0; k < leaf->count; k++) {
         leaf->faces[k] = lint_face_of(lint_mesh_triangle(tree->mesh, tree->order[leaf->first + k]));
@@ -323,6 +321,18 @@ static struct lint_pairs count_pairs(const struct lint_tree *tree, const uint32_
     return pairs;
 }
 
+// What each leaf of a mesh may take: the first meshes of a scene get the most.
+static uint32_t share_work(struct lint *lint, uint32_t leaf_count) {
+    const uint64_t left = WORK_MAX - (lint->pairs_spent < WORK_MAX ? lint->pairs_spent : WORK_MAX);
+    const uint64_t share = left / leaf_count;
+    const uint32_t most = leaf_count < LEAF_WORK_MAX / LEAF_BOXES ? leaf_count * LEAF_BOXES : LEAF_WORK_MAX;
+    const uint32_t work = share < LEAF_WORK_MIN   ? LEAF_WORK_MIN
+                          : share > LEAF_WORK_MAX ? LEAF_WORK_MAX
+                                                  : (uint32_t)share;
+    lint->pairs_spent += (uint64_t)leaf_count * (work < most ? work : most);
+    return work;
+}
+
 void lint_find_pairs(struct lint *lint, struct lint_mesh *mesh) {
     if (mesh->has_pairs || mesh->mesh->triangle_count > TRIANGLES_MAX)
         return;
@@ -333,6 +343,7 @@ void lint_find_pairs(struct lint *lint, struct lint_mesh *mesh) {
                         .refracts = mesh->first_refracting != NULL};
     if (self.tree->count == 0)
         return;
+    self.leaf_work = share_work(lint, self.tree->leaf_count);
     self.quads = ARENA_ARRAY(lint->arena, struct quad, self.tree->leaf_count);
     self.crossed = ARENA_ARRAY(lint->arena, uint32_t, self.tree->count);
     self.covered = ARENA_ARRAY(lint->arena, uint32_t, self.tree->count);

@@ -1,19 +1,55 @@
 #include "motion/expression.h"
 
+#include "core/heap.h"
 #include "core/number.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 enum {
     ARGUMENTS_MAX = 64,
     DEPTH_MAX = 64,
+    // What waits at each depth: arguments, the left sides of a sum and of a product, and what a power is of.
+    VALUES_MAX = DEPTH_MAX * (ARGUMENTS_MAX + 3),
 };
 
+enum step_kind {
+    STEP_NUMBER,
+    STEP_FRAME,
+    STEP_TIME,
+    STEP_NEGATE,
+    STEP_ADD,
+    STEP_SUBTRACT,
+    STEP_MULTIPLY,
+    STEP_DIVIDE,
+    STEP_REMAINDER,
+    STEP_POWER,
+    STEP_CALL,
+};
+
+// Times of an addition. A remainder takes one per binary digit that its operands' sizes differ by.
+enum {
+    COST_POWER = 8,
+    COST_REMAINDER = 128,
+};
+
+// Takes its values from the end of a list, and puts one there.
+struct expression_step {
+    uint8_t kind;        // step_kind
+    uint8_t function;    // STEP_CALL: in `functions`
+    uint16_t count;      // of its arguments
+    uint32_t begin, end; // in the text: the call
+    double number;
+};
+
+// Each step is of at least one character, so that a text has no more of them than characters.
 struct scan {
     str text;
     size_t at;
     int depth;
-    const struct expression_at *frame;
+    struct expression_step *steps;
+    uint32_t count;
+    uint64_t cost;
     struct expression_fault *fault;
 };
 
@@ -47,7 +83,17 @@ static bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
-static bool sum(struct scan *s, double *value);
+static bool sum(struct scan *s);
+
+static void add(struct scan *s, enum step_kind kind, uint64_t cost) {
+    s->steps[s->count++] = (struct expression_step){.kind = (uint8_t)kind};
+    s->cost += cost;
+}
+
+static void add_number(struct scan *s, double value) {
+    add(s, STEP_NUMBER, 1);
+    s->steps[s->count - 1].number = value;
+}
 
 // ---- functions
 
@@ -110,22 +156,23 @@ static double call_ease(const double *a, int count) {
 // Keys come in pairs after the first argument.
 static const struct function {
     const char *name, *form;
-    int count; // of arguments; 0: keys
+    int count;     // of arguments; 0: keys
+    unsigned cost; // in additions
     double (*call)(const double *a, int count);
     const char *wrong;
     bool is_inexact; // its last bit depends on the C library
 } functions[] = {
-    {"sin", "sin(x)", 1, call_sin, "'sin' takes one argument", true},
-    {"cos", "cos(x)", 1, call_cos, "'cos' takes one argument", true},
-    {"sqrt", "sqrt(x)", 1, call_sqrt, "'sqrt' takes one argument", false},
-    {"abs", "abs(x)", 1, call_abs, "'abs' takes one argument", false},
-    {"floor", "floor(x)", 1, call_floor, "'floor' takes one argument", false},
-    {"min", "min(a, b)", 2, call_min, "'min' takes two arguments", false},
-    {"max", "max(a, b)", 2, call_max, "'max' takes two arguments", false},
-    {"mix", "mix(a, b, share)", 3, call_mix, "'mix' takes three arguments", false},
-    {"keys", "keys(x, x0, v0, x1, v1, ...)", 0, call_keys,
+    {"sin", "sin(x)", 1, 8, call_sin, "'sin' takes one argument", true},
+    {"cos", "cos(x)", 1, 8, call_cos, "'cos' takes one argument", true},
+    {"sqrt", "sqrt(x)", 1, 2, call_sqrt, "'sqrt' takes one argument", false},
+    {"abs", "abs(x)", 1, 1, call_abs, "'abs' takes one argument", false},
+    {"floor", "floor(x)", 1, 2, call_floor, "'floor' takes one argument", false},
+    {"min", "min(a, b)", 2, 2, call_min, "'min' takes two arguments", false},
+    {"max", "max(a, b)", 2, 2, call_max, "'max' takes two arguments", false},
+    {"mix", "mix(a, b, share)", 3, 4, call_mix, "'mix' takes three arguments", false},
+    {"keys", "keys(x, x0, v0, x1, v1, ...)", 0, 64, call_keys,
      "'keys' takes x and then pairs, a place and the value there, the places in rising order", false},
-    {"ease", "ease(x, x0, v0, x1, v1, ...)", 0, call_ease,
+    {"ease", "ease(x, x0, v0, x1, v1, ...)", 0, 64, call_ease,
      "'ease' takes x and then pairs, a place and the value there, the places in rising order", false},
 };
 
@@ -170,35 +217,42 @@ void expression_inexact_names(unsigned used, struct strbuf *out) {
         }
 }
 
-static bool are_good(const struct function *f, const double *a, int count) {
-    if (f->count)
-        return count == f->count;
-    bool good = count >= 3 && count % 2 == 1;
+static bool count_is_good(const struct function *f, int count) {
+    return f->count ? count == f->count : count >= 3 && count % 2 == 1;
+}
+
+static bool keys_rise(const double *a, int count) {
+    bool good = true;
     for (int i = 3; good && i < count; i += 2)
         good = a[i] > a[i - 2];
     return good;
 }
 
-static bool call(struct scan *s, const struct function *f, size_t begin, double *value) {
-    double a[ARGUMENTS_MAX];
+static bool call(struct scan *s, int function, size_t begin) {
+    const struct function *f = &functions[function];
     int count = 0;
     do {
-        if (count == ARGUMENTS_MAX)
+        if (count++ == ARGUMENTS_MAX)
             return fail(s, begin, s->at, "there are more than 64 arguments");
-        if (!sum(s, &a[count++]))
+        if (!sum(s))
             return false;
     } while (take(s, ','));
     if (!take(s, ')'))
         return fail(s, s->at, s->at + 1, "')' is missing here");
-    if (!are_good(f, a, count))
+    if (!count_is_good(f, count))
         return fail(s, begin, s->at, f->wrong);
-    *value = f->call(a, count);
+    add(s, STEP_CALL, f->cost);
+    struct expression_step *step = &s->steps[s->count - 1];
+    step->function = (uint8_t)function;
+    step->count = (uint16_t)count;
+    step->begin = (uint32_t)begin;
+    step->end = (uint32_t)s->at;
     return true;
 }
 
 // ---- the grammar, by recursive descent
 
-static bool name(struct scan *s, double *value) {
+static bool name(struct scan *s) {
     const size_t begin = s->at;
     while (s->at < s->text.len && (is_letter(s->text.ptr[s->at]) || is_digit(s->text.ptr[s->at])))
         s->at++;
@@ -206,23 +260,24 @@ static bool name(struct scan *s, double *value) {
     if (take(s, '(')) {
         for (int i = 0; i < FUNCTIONS; i++)
             if (str_equal_cstr(word, functions[i].name))
-                return call(s, &functions[i], begin, value);
+                return call(s, i, begin);
         return fail(s, begin, begin + word.len, "there is no function of this name");
     }
     for (int i = 0; i < CONSTANTS; i++)
         if (str_equal_cstr(word, constants[i].name)) {
-            *value = constants[i].value;
+            add_number(s, constants[i].value);
             return true;
         }
     const bool is_frame = str_equal_cstr(word, "frame");
     if (!is_frame && !str_equal_cstr(word, "time"))
         return fail(s, begin, begin + word.len, "there is no number of this name");
-    *value = is_frame ? s->frame->frame : s->frame->time;
+    add(s, is_frame ? STEP_FRAME : STEP_TIME, 1);
     return true;
 }
 
-static bool number(struct scan *s, double *value) {
+static bool number(struct scan *s) {
     const size_t begin = s->at;
+    double value;
     while (s->at < s->text.len) {
         const char c = s->text.ptr[s->at];
         const bool exponent = (c == 'e' || c == 'E') && s->at > begin;
@@ -232,74 +287,143 @@ static bool number(struct scan *s, double *value) {
         if (exponent && s->at < s->text.len && (s->text.ptr[s->at] == '-' || s->text.ptr[s->at] == '+'))
             s->at++;
     }
-    return number_parse(str_slice(s->text, begin, s->at), value) == NUMBER_OK ||
-           fail(s, begin, s->at, "this is not a number");
+    if (number_parse(str_slice(s->text, begin, s->at), &value) != NUMBER_OK)
+        return fail(s, begin, s->at, "this is not a number");
+    add_number(s, value);
+    return true;
 }
 
-static bool atom(struct scan *s, double *value) {
+static bool atom(struct scan *s) {
     const char c = next(s);
     if (is_digit(c) || c == '.')
-        return number(s, value);
+        return number(s);
     if (is_letter(c))
-        return name(s, value);
+        return name(s);
     if (!take(s, '('))
         return fail(s, s->at, s->at + 1, "a number, a name or '(' is missing here");
-    return sum(s, value) && (take(s, ')') || fail(s, s->at, s->at + 1, "')' is missing here"));
+    return sum(s) && (take(s, ')') || fail(s, s->at, s->at + 1, "')' is missing here"));
 }
 
 // -x^2 is -(x^2), and 2^-1 is right.
-static bool signed_power(struct scan *s, double *value) {
-    double exponent;
+static bool signed_power(struct scan *s) {
     if (++s->depth > DEPTH_MAX)
         return fail(s, s->at, s->at + 1, "the expression is nested too deeply");
     bool good;
     if (take(s, '-')) {
-        good = signed_power(s, value);
-        *value = good ? -*value : 0;
+        good = signed_power(s);
+        add(s, STEP_NEGATE, 1);
     } else {
-        good = atom(s, value);
-        if (good && take(s, '^') && (good = signed_power(s, &exponent)))
-            *value = pow(*value, exponent);
+        good = atom(s);
+        if (good && take(s, '^') && (good = signed_power(s)))
+            add(s, STEP_POWER, COST_POWER);
     }
     s->depth--;
     return good;
 }
 
-static bool product(struct scan *s, double *value) {
-    double other;
-    if (!signed_power(s, value))
+static bool product(struct scan *s) {
+    if (!signed_power(s))
         return false;
     for (char c = next(s); c == '*' || c == '/' || c == '%'; c = next(s)) {
         s->at++;
-        if (!signed_power(s, &other))
+        if (!signed_power(s))
             return false;
-        *value = c == '*' ? *value * other : c == '/' ? *value / other : fmod(*value, other);
+        add(s,
+            c == '*'   ? STEP_MULTIPLY
+            : c == '/' ? STEP_DIVIDE
+                       : STEP_REMAINDER,
+            c == '%' ? COST_REMAINDER : 1);
     }
     return true;
 }
 
-static bool sum(struct scan *s, double *value) {
-    double other;
-    if (!product(s, value))
+static bool sum(struct scan *s) {
+    if (!product(s))
         return false;
     for (char c = next(s); c == '+' || c == '-'; c = next(s)) {
         s->at++;
-        if (!product(s, &other))
+        if (!product(s))
             return false;
-        *value = c == '+' ? *value + other : *value - other;
+        add(s, c == '+' ? STEP_ADD : STEP_SUBTRACT, 1);
     }
     return true;
+}
+
+static bool compile(struct scan *s, struct expression *expression) {
+    if (!sum(s))
+        return false;
+    if (next(s) != '\0' || s->at < s->text.len)
+        return fail(s, s->at, s->text.len, "an operator is missing before this");
+    *expression = (struct expression){s->steps, s->count, s->cost, s->text.len};
+    return true;
+}
+
+bool expression_compile(str text, struct arena *arena, struct expression *expression,
+                        struct expression_fault *fault) {
+    struct scan s = {
+        .text = text, .steps = ARENA_ARRAY(arena, struct expression_step, text.len + 1), .fault = fault};
+    return compile(&s, expression);
+}
+
+// ---- values
+
+static double between(enum step_kind kind, double a, double b) {
+    switch (kind) {
+    case STEP_ADD:
+        return a + b;
+    case STEP_SUBTRACT:
+        return a - b;
+    case STEP_MULTIPLY:
+        return a * b;
+    case STEP_DIVIDE:
+        return a / b;
+    case STEP_REMAINDER:
+        return fmod(a, b);
+    default:
+        return pow(a, b);
+    }
+}
+
+bool expression_at(const struct expression *expression, const struct expression_at *at, double *value,
+                   struct expression_fault *fault) {
+    double values[VALUES_MAX], *end = values;
+    for (uint32_t i = 0; i < expression->count; i++) {
+        const struct expression_step *step = &expression->steps[i];
+        if (step->kind <= STEP_TIME) {
+            *end++ = step->kind == STEP_NUMBER  ? step->number
+                     : step->kind == STEP_FRAME ? at->frame
+                                                : at->time;
+        } else if (step->kind == STEP_NEGATE) {
+            end[-1] = -end[-1];
+        } else if (step->kind == STEP_CALL) {
+            const struct function *f = &functions[step->function];
+            end -= step->count;
+            if (f->count == 0 && !keys_rise(end, step->count)) {
+                *fault = (struct expression_fault){step->begin, step->end, f->wrong};
+                return false;
+            }
+            *end = f->call(end, step->count);
+            end++;
+        } else {
+            end--;
+            end[-1] = between((enum step_kind)step->kind, end[-1], end[0]);
+        }
+    }
+    *value = values[0];
+    if (!isfinite(*value))
+        *fault = (struct expression_fault){0, expression->text_length, "the value of this is not finite"};
+    return isfinite(*value);
 }
 
 bool expression_value(str text, const struct expression_at *at, double *value,
                       struct expression_fault *fault) {
-    struct scan s = {.text = text, .frame = at, .fault = fault};
-    *value = 0;
-    if (!sum(&s, value))
-        return false;
-    if (next(&s) != '\0' || s.at < text.len)
-        return fail(&s, s.at, text.len, "an operator is missing before this");
-    return isfinite(*value) || fail(&s, 0, text.len, "the value of this is not finite");
+    struct expression expression;
+    struct scan s = {.text = text, .steps = heap_array(text.len + 1, sizeof *s.steps), .fault = fault};
+    const bool good = compile(&s, &expression) && expression_at(&expression, at, value, fault);
+    if (!good)
+        *value = 0;
+    free(s.steps);
+    return good;
 }
 
 // ---- texts with expressions

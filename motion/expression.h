@@ -1,13 +1,14 @@
 // Numbers that depend on the frame: an expression such as `4*cos(tau*frame/100)`, and texts with such
 // expressions in braces.
 //
-// Input: text; which frame it is. Output: a finite number, or the text with numbers in place of braces.
-// Errors: a fault with its place in the text. An expression is `+ - * / % ^`, parentheses, numbers, the names
-// and functions that expression_names lists; angles are in radians. Its value depends on its text and the
-// frame alone. Ownership: none. Thread safety: pure.
+// Input: text, compiled once; which frame it is. Output: a finite number, or the text with numbers in place
+// of braces. Errors: a fault with its place in the text. An expression is `+ - * / % ^`, parentheses,
+// numbers, the names and functions that expression_names lists; angles are in radians. Its value depends on
+// its text and the frame alone. Ownership: what is compiled lies in the arena. Thread safety: pure.
 #ifndef GLINT_MOTION_EXPRESSION_H
 #define GLINT_MOTION_EXPRESSION_H
 
+#include "core/arena.h"
 #include "core/strbuf.h"
 
 struct expression_at {
@@ -20,6 +21,19 @@ struct expression_fault {
     const char *what;  // a sentence without its full stop
 };
 
+struct expression_step;
+struct expression {
+    const struct expression_step *steps;
+    uint32_t count;
+    uint64_t cost;      // of one value, in additions
+    size_t text_length; // for faults
+};
+
+bool expression_compile(str text, struct arena *arena, struct expression *expression,
+                        struct expression_fault *fault);
+bool expression_at(const struct expression *expression, const struct expression_at *at, double *value,
+                   struct expression_fault *fault);
+// Both at once, for a text that is needed in one frame.
 bool expression_value(str text, const struct expression_at *at, double *value,
                       struct expression_fault *fault);
 // Appends `text` to `out`, with `{...}` replaced by the value of the expression. Braces around a colon, and

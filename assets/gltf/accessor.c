@@ -162,7 +162,7 @@ static bool check_numbers(struct gltf *gltf, const struct gltf_accessor *a, cons
 static bool can_read(struct gltf *gltf, const struct gltf_accessor *a) {
     if (a->view == GLTF_NONE && a->count > gltf->most_elements) {
         gltf_add(gltf, DIAG_LIMIT, a->node,
-                 "'%s' has %u elements and no bytes; the limit on triangles allows %llu",
+                 "'%s' has %u elements and no bytes; the limit mesh-copies allows %llu",
                  gltf_where(gltf, a->node), a->count, (unsigned long long)gltf->most_elements);
         return false;
     }

@@ -39,7 +39,7 @@ static void open_document(void *context) {
         return;
     bytes = document->file.text;
     gltf_open(&document->gltf, bytes, &document->report, &document->arena);
-    document->gltf.most_elements = 3 * document->file.input->limits->value[LIMIT_MESH_TRIANGLES];
+    document->gltf.most_elements = 3 * document->file.input->limits->value[LIMIT_MESH_COPIES];
     document->file.text = document->gltf.json.text;
     document->means =
         ARENA_ARRAY(&document->arena, struct gltf_means, (size_t)document->gltf.images.count + 1);

@@ -9,6 +9,7 @@
 
 #include "assets/file/asset_file.h"
 #include "assets/gltf/gltf.h"
+#include "core/str_map.h"
 
 struct ir_material;
 
@@ -24,6 +25,7 @@ struct gltf_document {
     struct file_read identity;
     struct gltf gltf;
     struct gltf_report report;
+    struct str_map material_numbers; // by name: 1 + the first that has it; made when first needed
     bool buffers_read;
     struct gltf_means *means; // of images that say metal and roughness
 };

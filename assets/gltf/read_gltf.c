@@ -27,6 +27,7 @@ struct reading {
     } shown;
     uint32_t *group_of; // by material, the last for none: 1 + the group
     uint64_t vertices;  // at most
+    uint64_t most;      // triangles; what is beyond is counted alone
     bool has_normals;
     struct {
         struct ir_pair *items;
@@ -55,6 +56,14 @@ static bool shares(const struct gltf *gltf, const struct gltf_primitive *p) {
     return gltf->accessors.items[p->position].count <= 3 * gltf_triangle_count(gltf, p);
 }
 
+// A few bytes can show a mesh again, which takes as much memory as the first time.
+static uint64_t most_triangles(const struct reading *r) {
+    uint64_t bytes = r->gltf->json.text.len;
+    for (uint32_t i = 0; i < r->gltf->buffers.count; i++)
+        bytes += r->gltf->buffers.items[i].bytes.len;
+    return bytes / 3 + r->file->input->limits->value[LIMIT_MESH_COPIES];
+}
+
 static void show_mesh(struct reading *r, uint32_t mesh, affine3 place) {
     const struct gltf_mesh *m = &r->gltf->meshes.items[mesh];
     for (uint32_t i = m->first; i < m->first + m->count; i++) {
@@ -62,8 +71,10 @@ static void show_mesh(struct reading *r, uint32_t mesh, affine3 place) {
         const uint64_t triangles = gltf_triangle_count(r->gltf, p);
         if (triangles == 0)
             continue;
-        *ARENA_PUSH(r->scratch, &r->shown) = (struct shown){p, place, group_of(r, p)};
         r->out->triangle_count += triangles;
+        if (r->out->triangle_count > r->most) // which check_counts reports
+            continue;
+        *ARENA_PUSH(r->scratch, &r->shown) = (struct shown){p, place, group_of(r, p)};
         r->vertices += shares(r->gltf, p) ? r->gltf->accessors.items[p->position].count : 3 * triangles;
         r->has_normals |= p->normal != GLTF_NONE;
     }
@@ -90,6 +101,7 @@ static bool is_numbered(str part, const char *word, uint32_t count, uint32_t *in
 
 static bool show_part(struct reading *r, str part) {
     uint32_t index;
+    r->most = most_triangles(r);
     if (part.len == 0)
         return show_all(r);
     for (index = 0; index < r->gltf->meshes.count; index++)
@@ -216,6 +228,12 @@ static bool check_counts(struct reading *r) {
     const uint64_t most = r->file->input->limits->value[LIMIT_MESH_TRIANGLES];
     if (r->out->triangle_count == 0) {
         asset_report_line(r->file, DIAG_MESH_EMPTY, 0, "the mesh has no faces");
+        return false;
+    }
+    if (r->out->triangle_count > r->most) {
+        asset_report_limit(r->file, LIMIT_MESH_COPIES, 0, 0,
+                           r->out->triangle_count - r->most +
+                               r->file->input->limits->value[LIMIT_MESH_COPIES]);
         return false;
     }
     if (r->out->triangle_count <= most && r->vertices < UINT32_MAX)

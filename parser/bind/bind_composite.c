@@ -86,7 +86,7 @@ static int find_component(const char *const *names, uint32_t count, str key) {
 static void unknown_component(struct bind_context *context, struct bind_subject subject, tree_index key) {
     const char *const *names = schema_components(subject.row->kind);
     str text = tree_text(context->tree, key);
-    struct mend_search search = mend_begin(context->scratch, text);
+    struct mend_search search = mend_begin(context->sink, context->scratch, text);
     str list = STR("");
     for (int i = 0; names[i]; i++) {
         mend_offer(&search, names[i], i);

@@ -1,5 +1,6 @@
 // Names that an element does not have: what may have been meant, and where the name does exist.
 #include "core/nearest.h"
+#include "core/strbuf.h"
 #include "grammar/concept.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
@@ -30,7 +31,7 @@ static void offer_row(struct mend_search *search, const struct schema_row *row, 
 // Of equally near rows, one that is not given yet was probably meant.
 static struct mend_search search_rows(struct bind_context *context, const struct bind_frame *frame,
                                       str text) {
-    struct mend_search search = mend_begin(context->scratch, text);
+    struct mend_search search = mend_begin(context->sink, context->scratch, text);
     for (int given = 0; given < 2; given++)
         for (uint32_t i = 0; i < frame->schema->row_count; i++)
             if (((frame->seen >> i) & 1) == (uint64_t)given)
@@ -139,10 +140,10 @@ static void did_you_mean(struct bind_context *context, struct bind_frame *frame,
 }
 
 // The row of another element that has this name, or, with `near`, one a letter off.
-static const struct schema_row *row_elsewhere(struct bind_context *context,
-                                              const struct schema_element *element, str snake, bool near) {
+static const struct schema_row *row_elsewhere(const struct schema_element *element,
+                                              const struct mend_search *begun, bool near) {
     for (uint32_t i = 0; i < element->row_count; i++) {
-        struct mend_search search = mend_begin(context->scratch, snake);
+        struct mend_search search = *begun;
         if (!element->rows[i].key)
             offer_row(&search, &element->rows[i], 0);
         if (search.best && search.distance <= (near ? 1 : 0))
@@ -171,8 +172,9 @@ static str elsewhere(struct bind_context *context, const struct bind_frame *fram
     str list = STR("");
     const char *name = NULL;
     unsigned count = 0;
+    const struct mend_search begun = mend_begin(context->sink, context->scratch, snake);
     for (const struct schema_element *const *e = schema_elements; *e; e++) {
-        const struct schema_row *row = *e == frame->schema ? NULL : row_elsewhere(context, *e, snake, near);
+        const struct schema_row *row = *e == frame->schema ? NULL : row_elsewhere(*e, &begun, near);
         if (!row || ++count > 2)
             continue;
         str kind = element_in_words(context, *e);
@@ -188,16 +190,18 @@ static str elsewhere(struct bind_context *context, const struct bind_frame *fram
 
 static void list_what_there_is(struct bind_context *context, const struct bind_frame *frame,
                                enum tree_key kind) {
-    str list = STR("");
+    struct strbuf list;
+    strbuf_init(&list);
     for (uint32_t i = 0; i < frame->schema->row_count; i++) {
         const struct schema_row *row = &frame->schema->rows[i];
         const char *name = spelling(row, kind, false);
         if (!name)
             name = kind == TREE_KEY_PLAIN ? NULL : row->element ? row->element : row->name;
         if (name)
-            list = arena_format(context->scratch, "%.*s%s%s", STR_ARG(list), list.len ? ", " : "", name);
+            strbuf_format(&list, "%s%s", list.len ? ", " : "", name);
     }
-    diag_help(context->sink, "it can have: %.*s", STR_ARG(list));
+    diag_help(context->sink, "it can have: %.*s", STR_ARG(strbuf_view(&list)));
+    strbuf_finish(&list);
 }
 
 // A row under the name that other programs give it.

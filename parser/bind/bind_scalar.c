@@ -348,7 +348,7 @@ static bool bind_word(struct bind_context *context, struct bind_subject subject,
                       unsigned *out) {
     const char *const *words = subject.row->words;
     str text = tree_text(context->tree, node);
-    struct mend_search search = mend_begin(context->scratch, text);
+    struct mend_search search = mend_begin(context->sink, context->scratch, text);
     for (unsigned i = 0; words[i]; i++) {
         if (str_equal_cstr(text, words[i])) {
             *out = i;

@@ -5,12 +5,13 @@
 #include "core/heap.h"
 #include "parser/bind/say.h"
 
-#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
+// What a frame's check takes, in additions.
 enum {
-    EVALUATIONS_MOST = 1000000, // of tracks in frames, while all frames are checked: else every n-th
-    LOOKS_MOST = 2000000,       // at elements in frames
+    TRACK_COST = 16,
+    ELEMENT_COST = 64,
 };
 
 static void set_value(const struct moving *m, const double value[CURVE_WIDTH_MOST]) {
@@ -71,19 +72,40 @@ static void take_frame(struct motion *motion) {
 
 // ---- all frames
 
-static int32_t stride(const struct motion *motion, uint64_t each, uint64_t most) {
-    return (int32_t)((uint64_t)motion->animation->frames * each / most) + 1;
+static uint64_t cost_of_frame(const struct motion *motion) {
+    uint64_t cost = (uint64_t)motion->element_count * ELEMENT_COST;
+    for (uint32_t i = 0; i < motion->count; i++)
+        cost += TRACK_COST + 2 * motion->items[i].cost; // by itself, and with all others
+    return cost;
+}
+
+// Where checking all frames takes too long: every n-th, and that is said.
+static void choose_step(struct motion *motion) {
+    const struct loader *loader = motion->loader;
+    const uint64_t most = loader->input->limits->value[LIMIT_ANIMATION_OPERATIONS];
+    const uint64_t frames = (uint64_t)motion->animation->frames, cost = cost_of_frame(motion);
+    const uint64_t step = cost ? (frames - 1) / (most / cost + 1) + 1 : 1;
+    motion->step = (int32_t)step;
+    if (step == 1)
+        return;
+    diag_add(loader->input->sink, DIAG_FRAMES_SKIPPED,
+             ir_place_value(&loader->output->origin, &motion->animation->head, &SCHEMA_ANIMATION, "frames"),
+             "one frame in %d is checked: %d frames of %llu operations are more than the limit "
+             "animation-operations "
+             "of %llu",
+             (int)step, (int)frames, (unsigned long long)cost, (unsigned long long)most);
+    diag_help(loader->input->sink, "--limit animation-operations=%llu checks all of them",
+              (unsigned long long)(frames * cost));
 }
 
 // Whether the track has a value in all frames, and what it is worth.
 static bool look_at_track(const struct motion *motion, const struct moving *m) {
     double first[CURVE_WIDTH_MOST], value[CURVE_WIDTH_MOST];
-    const int32_t step = stride(motion, motion->count, EVALUATIONS_MOST);
     bool moves = false;
     for (uint32_t i = 0; i < m->curve.count; i++)
         if (!moving_fits(motion, m, (int32_t)m->curve.frames[i], &m->curve.values[(size_t)i * m->width]))
             return false;
-    for (int32_t frame = 0; frame < motion->animation->frames; frame += step) {
+    for (int32_t frame = 0; frame < motion->animation->frames; frame += motion->step) {
         if (!moving_value(motion, m, frame, value) || !moving_fits(motion, m, frame, value))
             return false;
         if (frame == 0)
@@ -113,13 +135,39 @@ static void copy_first_error(const struct motion *motion, const struct diag_sink
     }
 }
 
+// The entry of the scene that a track moves something of.
+static const struct bind_frame *element_of(const struct moving *m) {
+    const struct bind_frame *frame = m->frame;
+    while (frame->parent && frame->parent->parent)
+        frame = frame->parent;
+    return frame;
+}
+
+static int compare_elements(const void *a, const void *b) {
+    const struct bind_frame *const *x = a, *const *y = b;
+    if ((*x)->via != (*y)->via)
+        return (*x)->via < (*y)->via ? -1 : 1;
+    return (*x)->memory < (*y)->memory ? -1 : (*x)->memory > (*y)->memory;
+}
+
+// Only what moves can break a rule in one frame and not in another.
+static void find_elements(struct motion *motion) {
+    uint32_t count = 0;
+    motion->elements = ARENA_ARRAY(&motion->loader->scratch, const struct bind_frame *, motion->count + 1);
+    for (uint32_t i = 0; i < motion->count; i++)
+        motion->elements[i] = element_of(&motion->items[i]);
+    if (motion->count)
+        qsort(motion->elements, motion->count, sizeof *motion->elements, compare_elements);
+    for (uint32_t i = 0; i < motion->count; i++)
+        if (count == 0 || motion->elements[i]->memory != motion->elements[count - 1]->memory)
+            motion->elements[count++] = motion->elements[i];
+    motion->element_count = count;
+}
+
 // The rules of whole elements, such as a camera that looks at its own place: the first frame that breaks one.
 static void look_at_elements(const struct motion *motion) {
     struct loader *loader = motion->loader;
     const struct parser_input *input = loader->input;
-    const struct ir_scene *scene = motion->scene;
-    const uint64_t elements = (uint64_t)ir_body_count(scene) + scene->lights.count + scene->cameras.count + 1;
-    const int32_t step = stride(motion, elements, LOOKS_MOST);
     double(*saved)[CURVE_WIDTH_MOST] =
         arena_alloc(input->arena, heap_times(motion->count + 1, sizeof *saved));
     bool *was_hex = ARENA_ARRAY(input->arena, bool, motion->count + 1);
@@ -132,13 +180,14 @@ static void look_at_elements(const struct motion *motion) {
         memcpy(saved[i], m->field, m->width * sizeof(double));
         was_hex[i] = m->color && m->color->is_hex;
     }
-    for (int32_t frame = 0; frame < motion->animation->frames && found.errors == 0; frame += step) {
+    for (int32_t frame = 0; frame < motion->animation->frames && found.errors == 0; frame += motion->step) {
         double value[CURVE_WIDTH_MOST];
         for (uint32_t i = 0; i < motion->count; i++)
             if (moving_value(motion, &motion->items[i], frame, value))
                 set_value(&motion->items[i], value);
         loader->input = &aside;
-        validate_elements(loader, scene);
+        for (uint32_t i = 0; i < motion->element_count; i++)
+            validate_element(loader, motion->elements[i]->schema, motion->elements[i]->memory);
         loader->input = input;
         if (found.errors)
             copy_first_error(motion, &found, frame);
@@ -187,7 +236,9 @@ void animate_scene(struct loader *loader, struct ir_scene *scene) {
         loader->output->origin.motion.rate = animation->rate;
         loader->output->origin.motion.inexact = inexact_of(animation);
     }
-    if (is_good && (!has_frame || is_frame_of_file(loader, animation))) {
+    if (is_good && animation->tracks.count && (!has_frame || is_frame_of_file(loader, animation))) {
+        find_elements(&motion);
+        choose_step(&motion);
         for (uint32_t i = 0; i < motion.count; i++)
             look_at_track(&motion, &motion.items[i]);
         if (sink->errors == errors && errors == 0)

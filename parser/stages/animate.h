@@ -9,6 +9,14 @@
 #include "motion/expression.h"
 #include "parser/stages/override.h"
 
+// A text of one number or several, compiled.
+struct moving_text {
+    str parts[CURVE_WIDTH_MOST];
+    struct expression values[CURVE_WIDTH_MOST];
+    double constant[CURVE_WIDTH_MOST];
+    uint32_t count; // of values; 0: it is `constant`, a colour in hexadecimal digits
+};
+
 // One track, found good so far.
 struct moving {
     const struct ir_track *track;
@@ -22,6 +30,8 @@ struct moving {
     uint32_t width;
     bool fills;         // one number stands for all
     struct curve curve; // of keys; count 0: the track's value is an expression
+    struct moving_text text;
+    uint64_t cost; // of its value in a frame, in additions
 };
 
 struct motion {
@@ -30,6 +40,11 @@ struct motion {
     const struct ir_animation *animation;
     struct moving *items;
     uint32_t count;
+    struct override_index index; // of what the tracks name
+    // While all frames are checked.
+    const struct bind_frame **elements; // that tracks move something of, each once
+    uint32_t element_count;
+    int32_t step; // from one frame that is checked to the next
 };
 
 // animate_tracks.c: finds what the tracks move, and reads their keys. Tracks with mistakes are reported and

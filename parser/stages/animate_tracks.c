@@ -10,6 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum {
+    CURVE_COST = 16, // of one number of a curve, in additions
+};
+
 static struct diag_sink *sink(const struct motion *motion) {
     return motion->loader->input->sink;
 }
@@ -170,26 +174,36 @@ static bool bad_value(const struct motion *motion, span at, str text, const stru
     return false;
 }
 
-// Text of one or several values in a frame.
-static bool evaluate(const struct motion *motion, const struct moving *m, str text, span at, int32_t frame,
-                     double out[CURVE_WIDTH_MOST]) {
-    const struct expression_at when = {.frame = frame, .time = frame / motion->animation->rate};
-    uint32_t count = 0;
-    str value;
-    if (m->color && read_hex(text, out)) {
+static bool compile(const struct motion *motion, const struct moving *m, str text, span at, int32_t frame,
+                    struct moving_text *out) {
+    str rest = text;
+    *out = (struct moving_text){0};
+    if (m->color && read_hex(text, out->constant)) {
         for (int i = 0; i < 3 && motion->scene->image.transfer == IR_TRANSFER_SRGB; i++)
-            out[i] = srgb_decode(out[i]);
+            out->constant[i] = srgb_decode(out->constant[i]);
         return true;
     }
-    for (str rest = text; ir_values_next(&rest, &value) && count < CURVE_WIDTH_MOST; count++) {
+    for (; out->count < CURVE_WIDTH_MOST && ir_values_next(&rest, &out->parts[out->count]); out->count++) {
         struct expression_fault fault;
-        if (!expression_value(value, &when, &out[count], &fault))
-            return bad_value(motion, at, value, &fault, frame);
+        const str part = out->parts[out->count];
+        if (!expression_compile(part, scratch(motion), &out->values[out->count], &fault))
+            return bad_value(motion, at, part, &fault, frame);
     }
-    if (count == 1 && m->fills)
-        for (; count < m->width; count++)
-            out[count] = out[0];
-    return count == m->width || wrong_count(motion, m, at, count);
+    return out->count == m->width || (out->count == 1 && m->fills) || wrong_count(motion, m, at, out->count);
+}
+
+static bool evaluate(const struct motion *motion, const struct moving *m, const struct moving_text *text,
+                     span at, int32_t frame, double out[CURVE_WIDTH_MOST]) {
+    const struct expression_at when = {.frame = frame, .time = frame / motion->animation->rate};
+    struct expression_fault fault;
+    if (text->count == 0)
+        memcpy(out, text->constant, sizeof text->constant);
+    for (uint32_t i = 0; i < text->count; i++)
+        if (!expression_at(&text->values[i], &when, &out[i], &fault))
+            return bad_value(motion, at, text->parts[i], &fault, frame);
+    for (uint32_t i = text->count; text->count == 1 && i < m->width; i++)
+        out[i] = out[0];
+    return true;
 }
 
 static span value_place(const struct motion *motion, const struct ir_track *track) {
@@ -209,7 +223,7 @@ span moving_place(const struct motion *motion, const struct moving *m, int32_t f
 bool moving_value(const struct motion *motion, const struct moving *m, int32_t frame,
                   double out[CURVE_WIDTH_MOST]) {
     if (m->curve.count == 0)
-        return evaluate(motion, m, m->track->value, value_place(motion, m->track), frame, out);
+        return evaluate(motion, m, &m->text, value_place(motion, m->track), frame, out);
     curve_at(&m->curve, frame, out);
     return true;
 }
@@ -280,15 +294,19 @@ static bool take_keys(const struct motion *motion, struct moving *m) {
     for (uint32_t i = 0; i < keys->count; i++) {
         const struct ir_keyframe *key = &keys->items[i];
         double value[CURVE_WIDTH_MOST];
+        struct moving_text text;
         if (key->head.poisoned)
             return false;
         frames[i] = key->frame;
-        good = evaluate(motion, m, key->value, key_place(motion, key, "value"), key->frame, value) && good;
+        const span at = key_place(motion, key, "value");
+        good = compile(motion, m, key->value, at, key->frame, &text) &&
+               evaluate(motion, m, &text, at, key->frame, value) && good;
         for (uint32_t k = 0; k < m->width; k++)
             values[(size_t)i * m->width + k] = good ? value[k] : 0;
     }
     m->curve = (struct curve){
         frames, values, keys->count, m->width, ways[m->track->interpolation], loops[m->track->loop]};
+    m->cost = CURVE_COST * (uint64_t)m->width;
     return good && are_in_order(motion, m->track);
 }
 
@@ -311,19 +329,28 @@ static bool has_one_form(const struct motion *motion, const struct ir_track *tra
     return false;
 }
 
-static bool read_track(const struct motion *motion, const struct ir_track *track, struct moving *m) {
+static bool read_track(struct motion *motion, const struct ir_track *track, struct moving *m) {
     struct loader *loader = motion->loader;
     struct override *path = ARENA_NEW(scratch(motion), struct override);
     struct override_target target;
-    *path =
-        (struct override){.loader = loader, .scene = motion->scene, .text = track->target, .is_track = true};
+    *path = (struct override){.loader = loader,
+                              .scene = motion->scene,
+                              .text = track->target,
+                              .index = &motion->index,
+                              .is_track = true};
     path->track = target_place(motion, track);
     path->source = path->track.source;
     *m = (struct moving){.track = track, .path = path};
     if (!has_one_form(motion, track) || !override_parse_path(path) || !override_walk(path, &target) ||
         !take_target(motion, m, &target))
         return false;
-    return track->keys.count == 0 || take_keys(motion, m);
+    if (track->keys.count)
+        return take_keys(motion, m);
+    if (!compile(motion, m, track->value, value_place(motion, track), 0, &m->text))
+        return false;
+    for (uint32_t i = 0; i < m->text.count; i++)
+        m->cost += m->text.values[i].cost;
+    return true;
 }
 
 // ---- two tracks of one value

@@ -77,7 +77,7 @@ void names_resolve(struct loader *loader, struct ir_scene *scene);
 // validate.c
 // The rules that a table cannot say.
 void validate_scene(struct loader *loader, const struct ir_scene *scene);
-// The same, and what is in loader->scratch stays.
-void validate_elements(struct loader *loader, const struct ir_scene *scene);
+// Those of one camera, light or body, or of the image; what is in loader->scratch stays.
+void validate_element(struct loader *loader, const struct schema_element *schema, const void *memory);
 
 #endif

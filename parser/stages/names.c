@@ -132,7 +132,7 @@ struct resolving {
     const struct ir_scene *scene;
     struct named_list *by_row; // sorted names of the scene's rows that references can mean
     struct mend_search searches[SEARCHES_MAX];
-    uint32_t search_count;
+    uint32_t search_count, focus_searches;
     struct str_map searched; // 1 + index in `searches`, by name
     struct str_map unread;   // names that may be in an include that could not be read
 };
@@ -192,7 +192,7 @@ static const struct mend_search *search_for(struct resolving *resolving, const s
     if (resolving->search_count == SEARCHES_MAX)
         return NULL;
     struct mend_search *search = &resolving->searches[resolving->search_count++];
-    *search = mend_begin(&resolving->loader->scratch, name);
+    *search = mend_begin(resolving->loader->input->sink, &resolving->loader->scratch, name);
     for (uint32_t i = 0; i < list->count; i++)
         mend_offer_str(search, list->items[i].name, (int)i);
     *number = resolving->search_count;
@@ -251,10 +251,11 @@ static void report_focus(struct resolving *resolving, struct named_list *things,
     struct diag_sink *sink = loader->input->sink;
     const span unread = loader->output->unread;
     const bool is_light = find(things, name) != NULL;
-    struct mend_search search = mend_begin(&loader->scratch, name);
-    for (uint32_t k = 0; k < things->count; k++)
+    struct mend_search search = mend_begin(sink, &loader->scratch, name);
+    for (uint32_t k = 0; k < things->count && resolving->focus_searches < SEARCHES_MAX; k++)
         if (is_body(&things->items[k]))
             mend_offer_str(&search, things->items[k].name, (int)k);
+    resolving->focus_searches++;
     if (!span_is_none(unread) && !is_light && !search.best) {
         note_may_be_unread(resolving, "body", at, name);
         return;

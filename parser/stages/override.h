@@ -3,6 +3,7 @@
 #ifndef GLINT_PARSER_STAGES_OVERRIDE_H
 #define GLINT_PARSER_STAGES_OVERRIDE_H
 
+#include "core/str_map.h"
 #include "parser/bind/bind.h"
 #include "parser/stages/loader.h"
 
@@ -24,16 +25,29 @@ enum {
     OVERRIDE_STEPS_MAX = 16
 };
 
+// What many paths into one scene share, which stays as it is meanwhile: entries by their names, each list's
+// when it is first asked.
+struct override_names {
+    const void *list;
+    struct str_map entries; // 1 + index
+    struct override_names *next;
+};
+struct override_index {
+    struct override_names *lists; // in the loader's scratch
+    uint32_t searches;            // through all of a list, for messages
+};
+
 struct override {
     struct loader *loader;
     struct ir_scene *scene;
     struct bind_context context;
     uint32_t source; // the option's text
     str text;
-    bool is_track;        // the path is a track's, which has no '=': findings are about that
-    span track;           // its text in the file
-    uint32_t value_begin; // after '='
-    span path;            // all of it
+    struct override_index *index; // of a track's path; NULL: the scene changes from path to path
+    bool is_track;                // the path is a track's, which has no '=': findings are about that
+    span track;                   // its text in the file
+    uint32_t value_begin;         // after '='
+    span path;                    // all of it
     struct override_step steps[OVERRIDE_STEPS_MAX];
     uint32_t step_count;
 };

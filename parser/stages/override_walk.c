@@ -5,6 +5,10 @@
 
 #include <string.h>
 
+enum {
+    SEARCHES_MAX = 50,
+};
+
 static struct arena *scratch(const struct override *o) {
     return &o->loader->scratch;
 }
@@ -42,7 +46,7 @@ static bool is_other_word(struct override *o, const struct schema_element *eleme
 
 static bool unknown_key(struct override *o, const struct bind_frame *frame,
                         const struct override_step *step) {
-    struct mend_search search = mend_begin(scratch(o), step->text);
+    struct mend_search search = mend_begin(sink(o), scratch(o), step->text);
     for (uint32_t i = 0; i < frame->schema->row_count; i++) {
         const struct schema_row *row = &frame->schema->rows[i];
         if (row->key)
@@ -90,10 +94,40 @@ static str name_of(const struct schema_row *row, void *list, uint32_t index) {
     return *(const str *)schema_field_const(&row->child->rows[name_row], item);
 }
 
+// The first entry of the name; false: none, and *entry is the list's length.
+static bool find_name(const struct override *o, const struct schema_row *row, void *list, str name,
+                      uint32_t *entry) {
+    const uint32_t count = bind_list_count(list);
+    if (!o->index) {
+        for (*entry = 0; *entry < count && !str_equal(name_of(row, list, *entry), name);)
+            ++*entry;
+        return *entry < count;
+    }
+    struct override_names *names = o->index->lists;
+    while (names && names->list != list)
+        names = names->next;
+    if (!names) {
+        names = ARENA_NEW(scratch(o), struct override_names);
+        *names = (struct override_names){.list = list, .next = o->index->lists};
+        str_map_init(&names->entries, scratch(o));
+        for (uint32_t i = count; i-- > 0;)
+            *str_map_at(&names->entries, name_of(row, list, i)) = i + 1;
+        o->index->lists = names;
+    }
+    const uint32_t found = str_map_find(&names->entries, name);
+    *entry = found ? found - 1 : count;
+    return found > 0;
+}
+
 static bool unknown_name(struct override *o, const struct schema_row *row, void *list,
                          const struct override_step *step, str name) {
-    struct mend_search search = mend_begin(scratch(o), name);
+    struct mend_search search = mend_begin(sink(o), scratch(o), name);
     str names = STR("");
+    diag_add(sink(o), override_code(o, DIAG_SET_PATH), step->at, "there is no %s '%.*s'", row->child->name,
+             STR_ARG(quoted_text(o, name)));
+    // As many names are looked for among all others as are reported one by one.
+    if (o->index && o->index->searches++ >= SEARCHES_MAX)
+        return false;
     for (uint32_t i = 0; i < bind_list_count(list); i++) {
         str other = name_of(row, list, i);
         if (other.len == 0)
@@ -103,8 +137,6 @@ static bool unknown_name(struct override *o, const struct schema_row *row, void 
             names = arena_format(scratch(o), "%.*s%s%.*s", STR_ARG(names), names.len ? ", " : "",
                                  STR_ARG(quoted_text(o, other)));
     }
-    diag_add(sink(o), override_code(o, DIAG_SET_PATH), step->at, "there is no %s '%.*s'", row->child->name,
-             STR_ARG(quoted_text(o, name)));
     if (search.best)
         diag_help(sink(o), "did you mean '%s'?", search.best);
     else if (names.len)
@@ -170,7 +202,8 @@ static bool through_reference(struct override *o, const struct bind_frame *frame
              "%.*s names the %s '%.*s'; a path cannot go through a name",
              STR_ARG(say_subject(scratch(o), bind_subject(frame, row))), row->child->name, STR_ARG(name));
     struct users users = {.o = o, .self = reference, .target = row->child};
-    visit_references(&SCHEMA_SCENE, o->scene, note_user, &users);
+    if (!o->index || o->index->searches++ < SEARCHES_MAX)
+        visit_references(&SCHEMA_SCENE, o->scene, note_user, &users);
     if (users.count > 3)
         diag_note(sink(o), SPAN_NONE, "and by %u more", users.count - 3);
     str rest = str_slice(o->text, o->steps[step].begin, o->text.len);
@@ -222,9 +255,8 @@ static bool find_entry(struct override *o, struct override_target *target, uint3
         target->entry = s->index;
         return s->index < count || unknown_index(o, row, s, count);
     }
-    for (target->entry = 0; target->entry < count; target->entry++)
-        if (str_equal(name_of(row, list, target->entry), name))
-            return true;
+    if (find_name(o, row, list, name, &target->entry))
+        return true;
     bool may_be_new = row->many == SCHEMA_NAMED_MAP && step + 1 == o->step_count &&
                       str_trim(str_slice(o->text, o->value_begin, o->text.len)).len;
     return may_be_new || unknown_name(o, row, list, s, name);

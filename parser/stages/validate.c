@@ -203,9 +203,9 @@ static bool leaves_world(vec3 v) {
     return !(vec3_max_abs(v) <= COORDINATE_MAX);
 }
 
-// Whether two edges span an area; `words` name what they belong to.
+// Whether two edges span an area; they belong to the `whole` of this name.
 static bool check_edges(const struct rules *rules, const struct schema_element *schema, const void *memory,
-                        str words, vec3 edge_u, vec3 edge_v) {
+                        const struct schema_element *whole, str name, vec3 edge_u, vec3 edge_v) {
     const char *const rows[2] = {"edge_u", "edge_v"};
     const vec3 edges[2] = {edge_u, edge_v};
     bool known[2] = {false, false};
@@ -215,12 +215,13 @@ static bool check_edges(const struct rules *rules, const struct schema_element *
         known[i] = !vec3_is_zero(edges[i]);
         if (!known[i])
             diag_add(rules->sink, DIAG_DEGENERATE_RECTANGLE, value_place(rules, schema, memory, rows[i]),
-                     "'%s' of %.*s is 0 0 0, which leaves no area", rows[i], STR_ARG(words));
+                     "'%s' of %.*s is 0 0 0, which leaves no area", rows[i],
+                     STR_ARG(owner(rules, whole, name)));
     }
     if (!known[0] || !known[1] || !is_parallel(edge_u, edge_v))
         return known[0] && known[1];
     diag_add(rules->sink, DIAG_DEGENERATE_RECTANGLE, value_place(rules, schema, memory, "edge_v"),
-             "the edges of %.*s are parallel, which leaves no area", STR_ARG(words));
+             "the edges of %.*s are parallel, which leaves no area", STR_ARG(owner(rules, whole, name)));
     diag_note(rules->sink, value_place(rules, schema, memory, "edge_u"), "'edge_u' is here");
     return false;
 }
@@ -230,15 +231,14 @@ static void check_panel(const struct rules *rules, const struct ir_light *light)
     const struct ir_panel *panel = &light->rectangle;
     if (is_poisoned(&SCHEMA_LIGHT, light, "rectangle"))
         return;
-    const str words = light->name.len ? owner(rules, &SCHEMA_LIGHT, light->name) : STR("this light");
-    if (!check_edges(rules, schema, panel, words, panel->edge_u, panel->edge_v) ||
+    if (!check_edges(rules, schema, panel, &SCHEMA_LIGHT, light->name, panel->edge_u, panel->edge_v) ||
         is_poisoned(schema, panel, "corner"))
         return;
     const vec3 u = vec3_add(panel->corner, panel->edge_u);
     if (leaves_world(u) || leaves_world(vec3_add(panel->corner, panel->edge_v)) ||
         leaves_world(vec3_add(u, panel->edge_v)))
         diag_add(rules->sink, DIAG_TRANSFORM_OVERFLOW, value_place(rules, schema, panel, "edge_u"),
-                 "%.*s has a coordinate beyond 1e18", STR_ARG(words));
+                 "%.*s has a coordinate beyond 1e18", STR_ARG(owner(rules, &SCHEMA_LIGHT, light->name)));
 }
 
 // Rays look at each of them: more are a mistake, or take for ever.
@@ -318,7 +318,7 @@ static void check_sphere(const struct rules *rules, const struct ir_sphere *sphe
 
 static void check_rectangle(const struct rules *rules, const struct ir_rectangle *rectangle) {
     const struct schema_element *schema = &SCHEMA_RECTANGLE;
-    if (!check_edges(rules, schema, rectangle, owner(rules, schema, rectangle->name), rectangle->edge_u,
+    if (!check_edges(rules, schema, rectangle, schema, rectangle->name, rectangle->edge_u,
                      rectangle->edge_v) ||
         is_poisoned(schema, rectangle, "corner"))
         return;
@@ -361,23 +361,35 @@ static void check_image(const struct rules *rules, const struct ir_image *image)
               "leave 'error' out: all pixels then have the same samples, and are rendered in bands");
 }
 
-void validate_elements(struct loader *loader, const struct ir_scene *scene) {
+void validate_element(struct loader *loader, const struct schema_element *schema, const void *memory) {
     struct rules rules = {loader->input->sink, &loader->output->origin, &loader->scratch};
-    check_image(&rules, &scene->image);
-    for (uint32_t i = 0; i < scene->cameras.count; i++)
-        check_camera(&rules, &scene->cameras.items[i]);
-    check_seen(&rules, &scene->lights);
-    for (uint32_t i = 0; i < scene->lights.count; i++)
-        check_light(&rules, &scene->lights.items[i]);
-    for (uint32_t i = 0; i < scene->spheres.count; i++)
-        check_sphere(&rules, &scene->spheres.items[i]);
-    for (uint32_t i = 0; i < scene->rectangles.count; i++)
-        check_rectangle(&rules, &scene->rectangles.items[i]);
-    for (uint32_t i = 0; i < scene->models.count; i++)
-        check_model(&rules, &scene->models.items[i]);
+    if (schema == &SCHEMA_IMAGE)
+        check_image(&rules, memory);
+    else if (schema == &SCHEMA_CAMERA)
+        check_camera(&rules, memory);
+    else if (schema == &SCHEMA_LIGHT)
+        check_light(&rules, memory);
+    else if (schema == &SCHEMA_SPHERE)
+        check_sphere(&rules, memory);
+    else if (schema == &SCHEMA_RECTANGLE)
+        check_rectangle(&rules, memory);
+    else if (schema == &SCHEMA_MODEL)
+        check_model(&rules, memory);
 }
 
 void validate_scene(struct loader *loader, const struct ir_scene *scene) {
-    validate_elements(loader, scene);
+    struct rules rules = {loader->input->sink, &loader->output->origin, &loader->scratch};
+    validate_element(loader, &SCHEMA_IMAGE, &scene->image);
+    for (uint32_t i = 0; i < scene->cameras.count; i++)
+        validate_element(loader, &SCHEMA_CAMERA, &scene->cameras.items[i]);
+    check_seen(&rules, &scene->lights);
+    for (uint32_t i = 0; i < scene->lights.count; i++)
+        validate_element(loader, &SCHEMA_LIGHT, &scene->lights.items[i]);
+    for (uint32_t i = 0; i < scene->spheres.count; i++)
+        validate_element(loader, &SCHEMA_SPHERE, &scene->spheres.items[i]);
+    for (uint32_t i = 0; i < scene->rectangles.count; i++)
+        validate_element(loader, &SCHEMA_RECTANGLE, &scene->rectangles.items[i]);
+    for (uint32_t i = 0; i < scene->models.count; i++)
+        validate_element(loader, &SCHEMA_MODEL, &scene->models.items[i]);
     arena_finish(&loader->scratch);
 }

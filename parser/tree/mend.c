@@ -194,9 +194,8 @@ str mend_like(struct arena *arena, str written, str replacement) {
     return arena_format(arena, "%c%.*s%c", quote, STR_ARG(replacement), quote);
 }
 
-str mend_snake(struct arena *arena, str text) {
-    text = mend_quotes(text);
-    char *out = arena_alloc(arena, heap_times(2, text.len) + 1);
+// `out` has twice the room of the text.
+static str put_snake(char *out, str text) {
     size_t length = 0;
     for (size_t i = 0; i < text.len; i++) {
         char c = text.ptr[i];
@@ -208,20 +207,35 @@ str mend_snake(struct arena *arena, str text) {
     return (str){out, length};
 }
 
-struct mend_search mend_begin(struct arena *arena, str word) {
-    return (struct mend_search){
-        .arena = arena, .word = word, .snake = mend_snake(arena, word), .distance = UINT_MAX};
+str mend_snake(struct arena *arena, str text) {
+    text = mend_quotes(text);
+    return put_snake(arena_alloc(arena, heap_times(2, text.len) + 1), text);
+}
+
+struct mend_search mend_begin(struct diag_sink *sink, struct arena *arena, str word) {
+    str snake = mend_snake(arena, word);
+    return (struct mend_search){.arena = arena,
+                                .word = word,
+                                .snake = snake,
+                                .near = nearest_begin_within(snake, &sink->search_left),
+                                .distance = UINT_MAX};
 }
 
 enum {
+    CANDIDATE_MAX = 128,
     PREFIX_DISTANCE = 2
 };
 
 void mend_offer_str(struct mend_search *search, str candidate, int id) {
-    str snake = mend_snake(search->arena, candidate);
-    struct nearest near = nearest_begin(search->snake);
-    nearest_offer(&near, snake);
-    unsigned distance = str_equal(snake, search->snake) ? 0 : near.best_distance;
+    char room[2 * CANDIDATE_MAX];
+    if (candidate.len > CANDIDATE_MAX)
+        return;
+    str snake = put_snake(room, mend_quotes(candidate));
+    bool same = str_equal(snake, search->snake);
+    search->near.best_distance = search->distance == UINT_MAX ? UINT_MAX : search->distance + 1;
+    if (!same)
+        nearest_offer(&search->near, snake);
+    unsigned distance = same ? 0 : search->near.best_distance;
     if (distance > PREFIX_DISTANCE && search->snake.len >= 3 && str_starts_with(snake, search->snake))
         distance = PREFIX_DISTANCE; // "dir", "pos", "spec"
     if (distance == UINT_MAX || distance > search->distance)

@@ -4,7 +4,9 @@
 #define GLINT_PARSER_TREE_MEND_H
 
 #include "core/arena.h"
+#include "core/nearest.h"
 #include "core/number.h"
+#include "diag/diag.h"
 
 // The number that a wrong spelling means, or the empty string.
 str mend_number(struct arena *arena, enum number_status status, str text);
@@ -29,17 +31,19 @@ str mend_like(struct arena *arena, str written, str replacement);
 str mend_snake(struct arena *arena, str text);
 
 // The nearest of several candidates, compared in snake_case; ties are counted. The beginning of a candidate,
-// of three letters and more, is near too.
+// of three letters and more, is near too. What all searches of one sink cost is limited; candidates that
+// differ in style alone are always found, if they are no longer than 128 bytes.
 struct mend_search {
     struct arena *arena;
     str word; // as written
     str snake;
+    struct nearest near;
     const char *best; // NULL: none is near enough
     int best_id;
     unsigned distance; // 0: only case or style differ
     unsigned ties;     // other candidates that are as near
 };
-struct mend_search mend_begin(struct arena *arena, str word);
+struct mend_search mend_begin(struct diag_sink *sink, struct arena *arena, str word);
 void mend_offer(struct mend_search *search, const char *candidate, int id);
 void mend_offer_str(struct mend_search *search, str candidate, int id);
 // Whether the best candidate is surely what was meant: only the style differs, or a letter or two does

@@ -26,7 +26,7 @@ enum {
 static tree_index undefined(struct yaml_reader *r, str name, span at) {
     diag_add(&r->sink, DIAG_UNDEFINED_ALIAS, at, "there is no anchor '%.*s' before this",
              STR_ARG(reader_clip(name)));
-    struct nearest nearest = nearest_begin(name);
+    struct nearest nearest = nearest_begin_within(name, &r->sink.search_left);
     uint32_t searched = r->sink.errors > SEARCHES_MAX ? 0 : r->anchors.count;
     for (uint32_t i = 1; i < searched && i < SEARCHED_MAX; i++)
         nearest_offer(&nearest, r->anchors.items[i].name);

@@ -420,20 +420,22 @@ static void fixes_make_the_text_right(void **state) {
 static void near_words(void **state) {
     (void)state;
     struct arena arena;
+    struct diag_sink sink;
+    diag_sink_init(&sink);
     arena_init(&arena, 1 << 20);
     assert_true(str_equal_cstr(mend_snake(&arena, STR("DiffuseColor")), "diffuse_color"));
     assert_true(str_equal_cstr(mend_snake(&arena, STR("edge-u")), "edge_u"));
     assert_true(str_equal_cstr(mend_snake(&arena, STR("EdgeU")), "edge_u"));
-    struct mend_search search = mend_begin(&arena, STR("abcdef"));
+    struct mend_search search = mend_begin(&sink, &arena, STR("abcdef"));
     mend_offer(&search, "abcdeg", 0);
     mend_offer(&search, "abcdeh", 1);
     assert_string_equal(search.best, "abcdeg");
     assert_false(mend_is_safe(&search)); // two are as near
-    search = mend_begin(&arena, STR("pos"));
+    search = mend_begin(&sink, &arena, STR("pos"));
     mend_offer(&search, "name", 0);
     mend_offer(&search, "position", 1);
     assert_string_equal(search.best, "position"); // its beginning
-    search = mend_begin(&arena, STR("po"));
+    search = mend_begin(&sink, &arena, STR("po"));
     mend_offer(&search, "position", 0);
     assert_null(search.best);
     assert_true(mend_is_numbers(STR("1, 2 3")));
@@ -444,6 +446,7 @@ static void near_words(void **state) {
     assert_true(str_equal_cstr(mend_quotes(STR(" \xE2\x80\x9Cred\xE2\x80\x9D ")), "red"));
     assert_int_equal(mend_quotes(STR("\xE2\x80\x9C\xE2\x80\x9D")).len, 0);
     assert_false(mend_is_numbers(STR("1 two")));
+    diag_sink_finish(&sink);
     arena_finish(&arena);
 }
 
