@@ -117,6 +117,8 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .background_height = flat->background ? flat->background->height : 1,
         .background_cos = (float)cos_degrees(settings->background_rotation),
         .background_sin = (float)cos_degrees(settings->background_rotation - 90),
+        .double_background_cos = cos_degrees(settings->background_rotation),
+        .double_background_sin = cos_degrees(settings->background_rotation - 90),
         .tiles_x = renderer->tiles_x,
         .run_tiles = renderer->run_tiles,
         .runs = renderer->runs,
