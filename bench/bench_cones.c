@@ -81,7 +81,7 @@ static vec3 filtered(double u, double v, const double a[2], const double b[2]) {
     vec3 sum = {0, 0, 0};
     for (int i = -pairs; i <= pairs; i++) {
         const bool is_end = abs(i) == pairs;
-        const double from_middle = is_end && i ? i + copysign((end - 1) / 2, i) : i;
+        const double from_middle = is_end && i ? i + (i > 0 ? end - 1 : 1 - end) / 2 : i;
         const double at = size > 0 ? from_middle / parts * longer / size : 0;
         const double s = u + at * way[0], t = v + at * way[1];
         sum = vec3_add(sum, vec3_mul(mixed(bilinear(below, s, t), bilinear(above, s, t), level - below),
