@@ -95,6 +95,8 @@ static void put_place(const struct render_settings *settings, struct frame_block
     frame->first_y = settings->first_y;
     frame->width = settings->width;
     frame->height = settings->height;
+    frame->double_background_cos = cos_degrees(settings->background_rotation);
+    frame->double_background_sin = cos_degrees(settings->background_rotation - 90);
     frame->point_bits = settings->whole_samples ? points_bits(0, settings->whole_samples)
                                                 : points_bits(settings->first_sample, settings->samples);
 }
@@ -117,8 +119,6 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .background_height = flat->background ? flat->background->height : 1,
         .background_cos = (float)cos_degrees(settings->background_rotation),
         .background_sin = (float)cos_degrees(settings->background_rotation - 90),
-        .double_background_cos = cos_degrees(settings->background_rotation),
-        .double_background_sin = cos_degrees(settings->background_rotation - 90),
         .tiles_x = renderer->tiles_x,
         .run_tiles = renderer->run_tiles,
         .runs = renderer->runs,
