@@ -17,7 +17,7 @@ enum {
     HEIGHT = 180,
     SIDE = 64, // of the image
     LEVELS = 7,
-    TAPS_MAX = 16,
+    TAPS_MAX = 15,
     EXACT = 256, // samples
     ROUNDS = 7,
 };
@@ -64,19 +64,30 @@ static vec3 bilinear(int level, double u, double v) {
                  mixed(texel(level, i, j + 1), texel(level, i + 1, j + 1), x - i), y - j);
 }
 
-// Axes in images; as reference/paint.c.
+// Conjugate radii in images; as reference/paint.c.
 static vec3 filtered(double u, double v, const double a[2], const double b[2]) {
-    const double la = SIDE * hypot(a[0], a[1]), lb = SIDE * hypot(b[0], b[1]);
-    const double *axis = lb > la ? b : a, longer = fmax(la, lb), shorter = fmin(la, lb);
-    const int taps = longer > 1 ? (int)fmin(TAPS_MAX, ceil(longer / fmax(shorter, 1))) : 1;
-    const double size = fmax(longer / taps, shorter), level = size > 1 ? fmin(log2(size), LEVELS - 1) : 0;
+    const double xx = a[0] * a[0] + b[0] * b[0], yy = a[1] * a[1] + b[1] * b[1],
+                 xy = a[0] * a[1] + b[0] * b[1];
+    const double part = (xx - yy) / 2, root = hypot(part, xy), longer = sqrt((xx + yy) / 2 + root),
+                 shorter = fabs(a[0] * b[1] - a[1] * b[0]) / longer;
+    const double way[2] = {part >= 0 ? root + part : xy, part >= 0 ? xy : root - part},
+                 size = hypot(way[0], way[1]);
+    const double parts = fmin(fmax(SIDE * longer / fmax(SIDE * shorter, 1), 1), TAPS_MAX);
+    const int pairs = (int)ceil((parts - 1) / 2);
+    const double end = pairs ? (parts - 2 * pairs + 1) / 2 : 1;
+    const double pixels = SIDE * fmax(longer / TAPS_MAX, shorter),
+                 level = pixels > 1 ? fmin(log2(pixels), LEVELS - 1) : 0;
     const int below = (int)level, above = below + 1 < LEVELS ? below + 1 : below;
     vec3 sum = {0, 0, 0};
-    for (int i = 0; i < taps; i++) {
-        const double at = (i + 0.5) / taps - 0.5, s = u + at * axis[0], t = v + at * axis[1];
-        sum = vec3_add(sum, mixed(bilinear(below, s, t), bilinear(above, s, t), level - below));
+    for (int i = -pairs; i <= pairs; i++) {
+        const bool is_end = abs(i) == pairs;
+        const double from_middle = is_end && i ? i + (i > 0 ? end - 1 : 1 - end) / 2 : i;
+        const double at = size > 0 ? from_middle / parts * longer / size : 0;
+        const double s = u + at * way[0], t = v + at * way[1];
+        sum = vec3_add(sum, vec3_mul(mixed(bilinear(below, s, t), bilinear(above, s, t), level - below),
+                                     is_end ? end : 1));
     }
-    return vec3_mul(sum, 1.0 / taps);
+    return vec3_mul(sum, 1 / parts);
 }
 
 // ---- rays

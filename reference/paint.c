@@ -10,7 +10,7 @@
 #include "grammar/ir.h"
 
 enum {
-    TAPS_MAX = 16,
+    TAPS_MAX = 15, // odd
 };
 
 #define PI 3.14159265358979323846
@@ -154,17 +154,37 @@ static struct place place_at(const struct spot *spot) {
                                       : triangle_place(spot->body, spot->s, spot->b);
 }
 
-// How coordinates change along an axis: by the difference of two places, the shorter way around a sphere.
-static struct place change(const struct spot *spot, vec3 axis) {
-    const double size = vec3_length(spot->arm), length = vec3_length(axis);
-    const double step =
-        spot->primitive->is_sphere && length * STEP > size * STEP ? STEP * size / length : STEP;
-    const struct spot before = moved(spot, axis, -step), after = moved(spot, axis, step);
+// How near to a sphere's axis differences are taken, radius 1.
+#define NEAREST_AXIS 1e-6
+
+// On a sphere, by places that are no nearer to its axis.
+static double off_axis(struct spot *spot) {
+    const double size = vec3_length(spot->arm), around = hypot(spot->arm.x, spot->arm.z);
+    if (around >= NEAREST_AXIS * size)
+        return around / size;
+    const double x = around > 0 ? spot->arm.x / around : 1, z = around > 0 ? spot->arm.z / around : 0;
+    spot->arm.x = x * NEAREST_AXIS * size;
+    spot->arm.z = z * NEAREST_AXIS * size;
+    return NEAREST_AXIS;
+}
+
+// How coordinates change along an axis: by the difference of two places, the shorter way around a sphere,
+// where a pixel covers no longitude twice.
+static struct place change(const struct spot *at, vec3 axis) {
+    struct spot spot = *at;
+    double step = STEP, less = 1;
+    if (spot.primitive->is_sphere) {
+        const double around = off_axis(&spot), length = vec3_length(axis) / vec3_length(spot.arm);
+        const double all = fabs(spot.s->width) / vec3_length(spot.arm) / (2 * PI);
+        step = STEP * fmin(1, around / length);
+        less = fmin(1, around / all);
+    }
+    const struct spot before = moved(&spot, axis, -step), after = moved(&spot, axis, step);
     const struct place a = place_at(&before), b = place_at(&after);
     double u = b.u - a.u;
-    if (spot->primitive->is_sphere)
+    if (spot.primitive->is_sphere)
         u -= floor(u + 0.5);
-    return (struct place){u / (2 * step), (b.v - a.v) / (2 * step)};
+    return (struct place){u * less / (2 * step), (b.v - a.v) / (2 * step)};
 }
 
 // ---- images
@@ -236,30 +256,60 @@ static struct place change_in_image(const struct scene_image *image, struct plac
     return (struct place){image->u[0] * p.u + image->u[1] * p.v, image->v[0] * p.u + image->v[1] * p.v};
 }
 
-// As many taps along the longer axis as the shorter one fits into it.
-static uint32_t taps_of(double longer, double shorter) {
-    return longer >= TAPS_MAX * shorter ? TAPS_MAX : longer <= shorter ? 1 : (uint32_t)ceil(longer / shorter);
+// ---- taps
+
+// An axis cut into `parts` of the same length, which need not be a whole number: whole ones around its
+// middle, an odd number of them, and half of what is left at each end. So nothing jumps where it grows.
+struct cut {
+    double parts;
+    uint32_t count;
+};
+
+static struct cut cut_of(double longer, double shorter) {
+    const double parts = longer >= TAPS_MAX * shorter ? TAPS_MAX : longer <= shorter ? 1 : longer / shorter;
+    return (struct cut){parts, 1 + 2 * (uint32_t)ceil((parts - 1) / 2)};
+}
+
+// Where part i begins and ends on the axis, from -1/2 to 1/2.
+static void part_of(struct cut cut, uint32_t i, double *begin, double *end) {
+    const double half = cut.count / 2.0;
+    *begin = fmax((i - half) / cut.parts, -0.5);
+    *end = fmin((i + 1 - half) / cut.parts, 0.5);
+}
+
+// The axes of an ellipse, the longer one first, by two of its radii that are conjugate to each other: turned
+// through its radii r(t) = a cos t + b sin t to where they are longest.
+static void axes_of(const struct place radius[2], struct place axis[2]) {
+    const struct place a = radius[0], b = radius[1];
+    const double t = atan2(2 * (a.u * b.u + a.v * b.v), a.u * a.u + a.v * a.v - b.u * b.u - b.v * b.v) / 2;
+    axis[0] = (struct place){a.u * cos(t) + b.u * sin(t), a.v * cos(t) + b.v * sin(t)};
+    axis[1] = (struct place){b.u * cos(t) - a.u * sin(t), b.v * cos(t) - a.v * sin(t)};
 }
 
 static vec3 filtered(const struct spot *spot, const struct footprint *f, const struct scene_image *image,
                      struct place at, struct reference_texel *texel) {
     const struct scene_level *whole = &image->texture->levels[0];
-    struct place axis[2];
-    double size[2];
+    struct place radius[2], axis[2];
     for (int k = 0; k < 2; k++) {
-        axis[k] = change_in_image(image, change(spot, f->axis[k]));
-        size[k] = hypot(axis[k].u * whole->width, axis[k].v * whole->height);
+        radius[k] = change_in_image(image, change(spot, f->axis[k]));
+        radius[k].u *= whole->width;
+        radius[k].v *= whole->height;
     }
-    const int longer = size[1] > size[0];
-    texel->taps = size[longer] > 1 ? taps_of(size[longer], fmax(size[!longer], 1)) : 1;
-    texel->level = level_of(image->texture, fmax(size[longer] / texel->taps, size[!longer]));
+    axes_of(radius, axis);
+    const double longer = hypot(axis[0].u, axis[0].v), shorter = hypot(axis[1].u, axis[1].v);
+    const struct cut cut = cut_of(longer, fmax(shorter, 1));
+    texel->taps = cut.count;
+    texel->level = level_of(image->texture, fmax(longer / TAPS_MAX, shorter));
     vec3 sum = {0, 0, 0};
-    for (uint32_t i = 0; i < texel->taps; i++) {
-        const double along = (i + 0.5) / texel->taps - 0.5;
-        const struct place tap = {at.u + along * axis[longer].u, at.v + along * axis[longer].v};
-        sum = vec3_add(sum, between(image, texel->level, tap));
+    for (uint32_t i = 0; i < cut.count; i++) {
+        double begin, end;
+        part_of(cut, i, &begin, &end);
+        const double along = (begin + end) / 2;
+        const struct place tap = {at.u + along * axis[0].u / whole->width,
+                                  at.v + along * axis[0].v / whole->height};
+        sum = vec3_add(sum, vec3_mul(between(image, texel->level, tap), end - begin));
     }
-    return vec3_mul(sum, 1.0 / texel->taps);
+    return sum;
 }
 
 static vec3 image_color(const struct spot *spot, const struct footprint *f, const struct scene_image *image,
@@ -304,16 +354,19 @@ static double odd_share(const struct spot *spot, const struct footprint *f, doub
     const bool is_flat = spot->body->shape == SCENE_PARALLELOGRAM;
     const vec3 axis[2] = {cell_change(spot, f->axis[0], size), cell_change(spot, f->axis[1], size)};
     const int longer = vec3_length(axis[1]) > vec3_length(axis[0]);
-    const uint32_t taps = taps_of(vec3_length(axis[longer]), vec3_length(axis[!longer]));
+    const struct cut cut = cut_of(vec3_length(axis[longer]), vec3_length(axis[!longer]));
     double sum = 0;
-    for (uint32_t i = 0; i < taps; i++) {
-        const vec3 x = vec3_add(at, vec3_mul(axis[longer], (i + 0.5) / taps - 0.5));
-        const vec3 w = {fabs(axis[longer].x) / taps + fabs(axis[!longer].x),
-                        fabs(axis[longer].y) / taps + fabs(axis[!longer].y),
-                        fabs(axis[longer].z) / taps + fabs(axis[!longer].z)};
-        sum += wave(x.x, w.x) * wave(x.y, w.y) * (is_flat ? 1 : wave(x.z, w.z));
+    for (uint32_t i = 0; i < cut.count; i++) {
+        double begin, end;
+        part_of(cut, i, &begin, &end);
+        const double share = end - begin;
+        const vec3 x = vec3_add(at, vec3_mul(axis[longer], (begin + end) / 2));
+        const vec3 w = {fabs(axis[longer].x) * share + fabs(axis[!longer].x),
+                        fabs(axis[longer].y) * share + fabs(axis[!longer].y),
+                        fabs(axis[longer].z) * share + fabs(axis[!longer].z)};
+        sum += wave(x.x, w.x) * wave(x.y, w.y) * (is_flat ? 1 : wave(x.z, w.z)) * share;
     }
-    return 0.5 - 0.5 * sum / taps;
+    return 0.5 - 0.5 * sum;
 }
 
 void reference_paint(const struct reference *r, const struct ray *ray, const double b[3], vec3 arm,

@@ -57,6 +57,14 @@ struct scene_body {
 // Black after any way that is not 0, and finite.
 #define SCENE_ABSORPTION_MAX 1e30
 
+// What a level's pixels are.
+enum scene_texels {
+    SCENE_TEXELS_BYTES,  // level 0 of an 8-bit image: three bytes, as the file has them
+    SCENE_TEXELS_PACKED, // its other levels: three linear values of 21 bits in 64, r in the lowest
+                         // (scene/textures.c)
+    SCENE_TEXELS_FLOATS, // levels of others: three linear floats; level 0: as the picture has them
+};
+
 // An image on surfaces, with levels of half its size each, down to one pixel. What a pixel is, is the image's
 // file's; levels are made here, once, for all that trace.
 struct scene_texture {
@@ -67,9 +75,8 @@ struct scene_texture {
     uint32_t level_count;
     struct scene_level {
         uint32_t width, height;
-        const void
-            *pixels; // rows from the top; three bytes a pixel, stored as the file's; else three linear floats
-        bool is_bytes; // level 0: NULL, and the picture's
+        const void *pixels; // rows from the top; level 0: NULL, and the picture's
+        enum scene_texels texels;
     } levels[SCENE_LEVELS_MAX];
 };
 

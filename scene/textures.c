@@ -15,30 +15,34 @@ enum {
 
 // ---- pixels
 
-// Both ways between stored bytes and linear values, as srgb_decode and srgb_encode, which would take most of
-// the time.
-struct codes {
-    double decoded[256];
-    double above[255]; // from this value on, the next byte is nearer
-};
+// One value of 21 bits: sixteen after the point, and above them the power of two, from -31 to 0; 0 is 0. So
+// the error of a value of 1 or less is below 8e-6 of it, or below 5e-10.
+#define PACKED_DIGITS 16
+#define PACKED_LEAST  (-31)
 
-static void make_codes(bool is_srgb, struct codes *out) {
-    for (int i = 0; i < 256; i++)
-        out->decoded[i] = is_srgb ? srgb_decode(i / 255.0) : i / 255.0;
-    for (int i = 0; i < 255; i++)
-        out->above[i] = is_srgb ? srgb_decode((i + 0.5) / 255) : (i + 0.5) / 255;
+static uint32_t packed(double value) {
+    int exponent;
+    const double part = 2 * frexp(value, &exponent) - 1; // 0..1
+    if (!(value > 0) || exponent - 1 < PACKED_LEAST)
+        return 0;
+    const uint32_t digits = (uint32_t)nearbyint(part * (1 << PACKED_DIGITS));
+    return ((uint32_t)(exponent - 1 - PACKED_LEAST) << PACKED_DIGITS) + digits;
 }
 
-static uint8_t encoded(const struct codes *codes, double value) {
-    int low = 0, high = 255;
-    while (low < high) {
-        const int middle = (low + high) / 2;
-        if (value >= codes->above[middle])
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return (uint8_t)low;
+static double unpacked(uint32_t bits) {
+    const uint32_t as_float = (bits << (23 - PACKED_DIGITS)) + ((uint32_t)(127 + PACKED_LEAST) << 23);
+    float value;
+    memcpy(&value, &as_float, sizeof value);
+    return bits ? (double)value : 0;
+}
+
+static uint64_t pack(vec3 color) {
+    return (uint64_t)packed(color.x) | (uint64_t)packed(color.y) << 21 | (uint64_t)packed(color.z) << 42;
+}
+
+static vec3 unpack(uint64_t bits) {
+    return (vec3){unpacked(bits & 0x1fffff), unpacked(bits >> 21 & 0x1fffff),
+                  unpacked((uint32_t)(bits >> 42))};
 }
 
 static vec3 picture_texel(const struct scene_texture *t, size_t at) {
@@ -61,15 +65,10 @@ vec3 scene_texel(const struct scene_texture *t, uint32_t level, uint32_t x, uint
     const size_t at = (size_t)y * l->width + x;
     if (level == 0)
         return picture_texel(t, at);
-    if (!l->is_bytes) {
-        const float *p = (const float *)l->pixels + 3 * at;
-        return (vec3){(double)p[0], (double)p[1], (double)p[2]};
-    }
-    const uint8_t *p = (const uint8_t *)l->pixels + 3 * at;
-    double value[3];
-    for (int k = 0; k < 3; k++)
-        value[k] = t->is_srgb ? srgb_decode(p[k] / 255.0) : p[k] / 255.0;
-    return (vec3){value[0], value[1], value[2]};
+    if (l->texels == SCENE_TEXELS_PACKED)
+        return unpack(((const uint64_t *)l->pixels)[at]);
+    const float *p = (const float *)l->pixels + 3 * at;
+    return (vec3){(double)p[0], (double)p[1], (double)p[2]};
 }
 
 // ---- levels
@@ -96,28 +95,27 @@ struct halving {
     const struct scene_texture *texture;
     uint32_t level; // that is made
     void *pixels;
-    struct codes codes;
+    double decoded[256]; // of stored bytes, as scene_texel has them, which would take most of the time
 };
 
 // scene_texel of the level before.
 static vec3 texel_before(const struct halving *h, uint32_t x, uint32_t y) {
     const struct scene_level *l = &h->texture->levels[h->level - 1];
-    if (!l->is_bytes)
+    if (l->texels != SCENE_TEXELS_BYTES)
         return scene_texel(h->texture, h->level - 1, x, y);
-    const uint8_t *p = (const uint8_t *)(h->level > 1 ? l->pixels : h->texture->picture->pixels) +
-                       3 * ((size_t)y * l->width + x);
-    return (vec3){h->codes.decoded[p[0]], h->codes.decoded[p[1]], h->codes.decoded[p[2]]};
+    const uint8_t *p = (const uint8_t *)h->texture->picture->pixels + 3 * ((size_t)y * l->width + x);
+    return (vec3){h->decoded[p[0]], h->decoded[p[1]], h->decoded[p[2]]};
 }
 
 static void put_texel(const struct halving *h, size_t at, vec3 color) {
-    const double value[3] = {color.x, color.y, color.z};
-    const struct scene_texture *t = h->texture;
-    for (size_t k = 0; k < 3; k++) {
-        if (t->levels[h->level].is_bytes)
-            ((uint8_t *)h->pixels)[3 * at + k] = encoded(&h->codes, value[k]);
-        else
-            ((float *)h->pixels)[3 * at + k] = (float)value[k];
+    if (h->texture->levels[h->level].texels == SCENE_TEXELS_PACKED) {
+        ((uint64_t *)h->pixels)[at] = pack(color);
+        return;
     }
+    float *to = (float *)h->pixels + 3 * at;
+    to[0] = (float)color.x;
+    to[1] = (float)color.y;
+    to[2] = (float)color.z;
 }
 
 static void halve_rows(void *context, size_t begin, size_t end) {
@@ -138,11 +136,14 @@ static void halve_rows(void *context, size_t begin, size_t end) {
 }
 
 static void make_levels(struct scene_texture *t, struct arena *arena) {
-    t->levels[0] = (struct scene_level){
-        .width = t->picture->width, .height = t->picture->height, .is_bytes = t->picture->depth == PICTURE_8};
+    const bool is_bytes = t->picture->depth == PICTURE_8;
+    t->levels[0] = (struct scene_level){.width = t->picture->width,
+                                        .height = t->picture->height,
+                                        .texels = is_bytes ? SCENE_TEXELS_BYTES : SCENE_TEXELS_FLOATS};
     t->level_count = 1;
     struct halving halving = {.texture = t};
-    make_codes(t->is_srgb, &halving.codes);
+    for (int i = 0; i < 256; i++)
+        halving.decoded[i] = t->is_srgb ? srgb_decode(i / 255.0) : i / 255.0;
     while (t->level_count < SCENE_LEVELS_MAX) {
         const struct scene_level *last = &t->levels[t->level_count - 1];
         struct scene_level *next = &t->levels[t->level_count];
@@ -150,8 +151,8 @@ static void make_levels(struct scene_texture *t, struct arena *arena) {
             break;
         *next = (struct scene_level){.width = last->width > 1 ? last->width / 2 : 1,
                                      .height = last->height > 1 ? last->height / 2 : 1,
-                                     .is_bytes = last->is_bytes};
-        const size_t pixel_bytes = next->is_bytes ? 3 : 3 * sizeof(float);
+                                     .texels = is_bytes ? SCENE_TEXELS_PACKED : SCENE_TEXELS_FLOATS};
+        const size_t pixel_bytes = is_bytes ? sizeof(uint64_t) : 3 * sizeof(float);
         const size_t bytes = heap_times(heap_times(next->width, next->height), pixel_bytes);
         halving.level = t->level_count;
         halving.pixels = arena_alloc(arena, bytes);

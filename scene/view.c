@@ -285,8 +285,9 @@ void view_sample_offset(uint32_t n, double *a, double *b) {
     const double ratio = 1.32471795724474602596; // the plastic number
     double x = 0.5 + n / ratio;
     double y = 0.5 + n / (ratio * ratio);
-    *a = x - floor(x);
-    *b = y - floor(y);
+    // As devices have them.
+    *a = (double)(float)(x - floor(x));
+    *b = (double)(float)(y - floor(y));
 }
 
 struct view_ray view_ray_at(const struct view_camera *camera, double aspect, double x, double y) {

@@ -12,14 +12,15 @@ vec3 background_texel(int x, int y) {
 #endif
 }
 
-vec3 background_image(vec3 d) {
-    float x = d.x * frame.background_cos - d.z * frame.background_sin;
-    float z = d.x * frame.background_sin + d.z * frame.background_cos;
-    float width = float(frame.background_width), height = float(frame.background_height);
-    float u = (0.5 + arctan2(z, x) * (0.5 / PI)) * width - 0.5;
-    float v = arctan2(sqrt(x * x + z * z), d.y) * (1.0 / PI) * height - 0.5;
-    float u0 = floor(u), v0 = floor(v);
-    float fu = u - u0, fv = v - v0;
+vec3 background_image(REAL3 d) {
+    REAL2 turn = BACKGROUND_TURN;
+    REAL x = d.x * turn.x - d.z * turn.y;
+    REAL z = d.x * turn.y + d.z * turn.x;
+    REAL width = REAL(frame.background_width), height = REAL(frame.background_height);
+    REAL u = (0.5 + arctan2(z, x) * (0.5 / REAL_PI)) * width - 0.5;
+    REAL v = arctan2(sqrt(x * x + z * z), d.y) * (1.0 / REAL_PI) * height - 0.5;
+    REAL u0 = floor(u), v0 = floor(v);
+    float fu = float(u - u0), fv = float(v - v0);
     // Clamped as floats first: a conversion out of range is undefined.
     int column = int(clamp(u0, -1.0, width - 1.0));
     int row = int(clamp(v0, -1.0, height - 1.0));
@@ -31,7 +32,7 @@ vec3 background_image(vec3 d) {
     return (upper * (1.0 - fv) + lower * fv) * frame.background_intensity;
 }
 
-vec3 background(vec3 direction) {
+vec3 background(REAL3 direction) {
     vec3 color = frame.background;
     if (HAS_BACKGROUND_IMAGE && wants(FEATURE_BACKGROUND_IMAGE))
         color = background_image(direction);

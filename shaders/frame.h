@@ -59,7 +59,8 @@
     UINT(seen_table) /* of lights that rays see: records.h */                                                \
     UINT(seen_count)
 
-/* The camera once more, after those, for kernels that trace in double precision. */
+/* The camera and the background's rotation once more, after those, for kernels that trace in double
+ * precision. */
 #define FRAME_DOUBLE_FIELDS(DOUBLE)                                                                          \
     DOUBLE(double_position_x)                                                                                \
     DOUBLE(double_position_y)                                                                                \
@@ -72,7 +73,9 @@
     DOUBLE(double_right_z)                                                                                   \
     DOUBLE(double_up_x)                                                                                      \
     DOUBLE(double_up_y)                                                                                      \
-    DOUBLE(double_up_z)
+    DOUBLE(double_up_z)                                                                                      \
+    DOUBLE(double_background_cos)                                                                            \
+    DOUBLE(double_background_sin)
 
 /* camera_right and camera_up times, besides W/H in right: */
 #define PROJECTION_PERSPECTIVE  0u /* tan(fov/2) */

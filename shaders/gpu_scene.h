@@ -86,19 +86,24 @@
 
 /* Images: PAINTS begins with two records for each material, of its diffuse and its specular colour. After
    them lie, in any order, what records name by the number of its word: for each image a word a level, of its
-   first texel, width and height; its texels, row 0 on top, from the finest level on, of 8-bit images four to
-   a word (r in the lowest byte; the first texel is counted in components), of others one (three floats); for
-   images that are sRGB a word for each of 256 values, decoded; for each mesh with coordinates two words a
-   triangle (u, v of each corner, in the order of the mesh); and, from frame.coordinates_table on, four to a
-   word, the first of those words for each body: it is even, plus 1 where the body's second and third corners
-   are exchanged against the mesh's; 0: it has none. Word numbers have 32 bits: 64 GiB, of which a quarter can
-   be 8-bit texels. */
+   first texel (counted in texels from the array's begin), width, height and the kind of its texels, row 0 on
+   top, from the finest level on; for images of bytes that are sRGB a word for each of 256 values, decoded;
+   for each mesh with coordinates COORDINATE_WORDS a triangle (u, v of each corner, in the order of the mesh,
+   as floats, or as doubles in COORDINATE64_WORDS); and, from frame.coordinates_table on, four to a word, the
+   first of those words for each body: it is even, plus 1 where the body's second and third corners are
+   exchanged against the mesh's; 0: it has none. Word numbers have 32 bits: 64 GiB, of which a quarter can be
+   texels of bytes. */
+#define COORDINATE_WORDS   2
+#define COORDINATE64_WORDS 3
+/* Kinds of texels: a word has two to the power of these. */
+#define TEXELS_FLOATS 0u /* three floats */
+#define TEXELS_PACKED 1u /* three values of 21 bits, r in the lowest bits: scene/textures.c */
+#define TEXELS_BYTES  2u /* three bytes, r in the lowest */
 #define PAINT_NEAREST 1u
 #define PAINT_AUTO    2u /* neither: bilinear */
 #define PAINT_CLAMP   4u
-#define PAINT_MIRROR  8u /* neither: repeat */
-#define PAINT_FLOATS  16u
-#define PAINT_SOFT    32u /* the material's checker is filtered */
+#define PAINT_MIRROR  8u  /* neither: repeat */
+#define PAINT_SOFT    16u /* the material's checker is filtered */
 
 /* A medium (scene/media.h): its priority, above 0, and below it the number, from 1 on, of a material that
    fills it; the same one for all that are alike. What a path is inside (media.glsl) is kept with the number

@@ -24,6 +24,11 @@ const float GAMMA_7 = 4.1723270e-7;
 #endif
 const REAL FAR_AWAY = 3.0e38;
 const float PI = 3.14159265358979;
+#ifdef DOUBLE_PRECISION
+const double REAL_PI = 3.14159265358979323846lf;
+#else
+const float REAL_PI = PI;
+#endif
 
 REAL dot3(REAL3 a, REAL3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
@@ -106,6 +111,30 @@ float arctan2(float y, float x) {
     angle = x < 0.0 ? PI - angle : angle;
     return y < 0.0 ? -angle : angle;
 }
+
+#ifdef DOUBLE_PRECISION
+// arctan for |x| <= tan(pi/8), as twice that of half the angle, by Gregory's series: what is cut off is below 2e-17.
+double arctan_small(double x) {
+    double half_angle = x / (1.0 + sqrt(1.0 + x * x)), z = half_angle * half_angle, sum = 0.0;
+    for (int k = 21; k > 0; k -= 2)
+        sum = 1.0lf / double(k) - z * sum;
+    return 2.0 * half_angle * sum;
+}
+
+// As of floats.
+double arctan2(double y, double x) {
+    double ax = abs(x), ay = abs(y);
+    double big = max(ax, ay), small = min(ax, ay);
+    bool upper = small > 0.41421356237309505lf * big;
+    double quotient = upper ? (small - big) / (small + big) : small / big;
+    quotient = big == 0.0 ? 0.0 : quotient;
+    double angle = arctan_small(quotient);
+    angle = upper ? angle + 0.25 * REAL_PI : angle;
+    angle = ay > ax ? 0.5 * REAL_PI - angle : angle;
+    angle = x < 0.0 ? REAL_PI - angle : angle;
+    return y < 0.0 ? -angle : angle;
+}
+#endif
 
 // max(0, cosine)^exponent, where cosine = 1 - loss: by loss, since 1 - loss has no digits left where large
 // exponents need them; 0^0 = 1. ln(1 - x) = -2 artanh(x/(2 - x)), by an own minimax fit of degree 4 in the

@@ -163,14 +163,14 @@
 /* How a material shows an image; the rows take the coordinates of a surface (u, v, 1) to those of the image.
  */
 #define PAINT_WORDS   3
-#define PAINT64_WORDS 3
+#define PAINT64_WORDS 5
 #define PAINT_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                       \
     UINT(levels, 0, x, 0, x) /* the word of the first; 0: no image */                                        \
     UINT(level_count, 0, y, 0, y)                                                                            \
     UINT(flags, 0, z, 0, z)                                                                                  \
     UINT(table, 0, w, 0, w) /* of decoded values; 0: values are as they are */                               \
-    FLOAT3(row_u, 1, 1)                                                                                      \
-    FLOAT3(row_v, 2, 2)
+    REAL3(row_u, 1, 1)                                                                                       \
+    REAL3(row_v, 2, 3)
 
 #define LIGHT_WORDS   2
 #define LIGHT64_WORDS 3

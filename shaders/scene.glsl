@@ -115,11 +115,13 @@ layout(set = 0, binding = BINDING_FRAME, std140) uniform frame_block {
     FRAME_DOUBLE_FIELDS(DOUBLE_FIELD)
 } frame;
 #define CAMERA(name) dvec3(frame.double_##name##_x, frame.double_##name##_y, frame.double_##name##_z)
+#define BACKGROUND_TURN dvec2(frame.double_background_cos, frame.double_background_sin)
 #else
 layout(set = 0, binding = BINDING_FRAME, std140) uniform frame_block {
     FRAME_FIELDS(VECTOR_FIELD, FLOAT_FIELD, UINT_FIELD)
 } frame;
 #define CAMERA(name) frame.camera_##name
+#define BACKGROUND_TURN vec2(frame.background_cos, frame.background_sin)
 #endif
 #ifdef WEBGPU
 layout(set = 0, binding = BINDING_DISPATCH, std140) uniform dispatch_block {

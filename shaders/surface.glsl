@@ -186,7 +186,7 @@ void sphere_surface(hit_record hit, REAL3 origin, REAL3 direction, inout surface
     if (HAS_FOOTPRINT)
         s.bend = (s.enters ? 1.0 : -1.0) / float(sphere.radius);
     if (HAS_PAINT && wants(FEATURE_TEXTURES | FEATURE_FOOTPRINT))
-        sphere_spot(outward, sphere.radius, spot);
+        sphere_spot(outward, sphere.radius, s.width, spot);
     read_material(sphere.shade, sphere.body, REAL2(0.0), spot, s);
 }
 

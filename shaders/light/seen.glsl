@@ -43,7 +43,7 @@ void see_lights(REAL3 start, REAL3 direction, inout seen_light seen) {
 // What is seen where nothing is hit: the background, and discs in front of it. By the sine of the angle to their middle,
 // which has the digits that small discs need.
 vec3 seen_beyond(REAL3 direction) {
-    vec3 sum = background(vec3(direction));
+    vec3 sum = background(direction);
     uint count = HAS_SEEN_LIGHT ? frame.seen_count + OPAQUE_ZERO : 0u;
     for (uint i = 0u; HAS_SEEN_LIGHT && i < count; i++) {
         seen_record light = load_seen(i);

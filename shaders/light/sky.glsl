@@ -51,11 +51,11 @@ sky_spot sky_at(uint key) {
     REAL gap = begin + down * step, sine = sqrt(max(gap * (2.0 - gap), 0.0));
     // Cells begin in the middle of a texel, and the picture's middle is longitude 0.
     REAL2 turned = turn_by(4.0 * ((REAL(column) + 0.5 + across) / REAL(frame.sky_width)) - 2.0) * sine;
-    REAL c = REAL(frame.background_cos), s = REAL(frame.background_sin);
+    REAL c = BACKGROUND_TURN.x, s = BACKGROUND_TURN.y;
     sky_spot spot;
     spot.l = REAL3(turned.x * c + turned.y * s, step > 0.0 ? 1.0 - gap : gap - 1.0, turned.y * c - turned.x * s);
     // Over pi, and over the density, which is the cell's share over its solid angle.
     REAL size = 2.0 * abs(step) / REAL(frame.sky_width);
-    spot.emission = background(vec3(spot.l)) * float(size * (4294967296.0 / high) * (4294967296.0 / wide));
+    spot.emission = background(spot.l) * float(size * (4294967296.0 / high) * (4294967296.0 / wide));
     return spot;
 }

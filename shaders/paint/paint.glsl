@@ -2,10 +2,10 @@
 //
 // The footprint of a pixel is that of a cone around its ray (Akenine-Moeller, Crassin, Boksansky, Belcour, Panteleev
 // and Wright 2021, "Improved Shader and Texture Level of Detail Using Ray Cones"): on a surface an ellipse, whose longer
-// axis is walked in as many taps as the shorter one fits into it.
+// axis is cut into as many parts as the shorter one fits into it.
 
 const bool HAS_PAINT = HAS_TEXTURES || HAS_FOOTPRINT;
-const uint TAPS_MAX = 16u;
+const uint TAPS_MAX = 15u; // odd
 // What the taps of surfaces may add to an iteration: of two images, or of one and a checker; of a surface that light shines through too.
 const uint PAINT_ITERATIONS = HAS_FOOTPRINT ? (HAS_CLEAR_SHADOWS ? 2u : 1u) * (2u * TAPS_MAX + 4u) : 0u;
 
@@ -53,31 +53,35 @@ float decoded(paint_record p, uint value) {
     return p.table == 0u ? float(value) / 255.0 : uintBitsToFloat(FETCH(paints, p.table + value).x);
 }
 
-// `level`: its first texel, counted in words of bytes or of floats; width, height.
+// Sixteen bits after the point, and a power of two from -31 to 0: gpu_scene.h.
+float unpacked(uint bits) { return bits == 0u ? 0.0 : uintBitsToFloat((bits << 7u) + 0x30000000u); }
+
+// `level`: its first texel, counted in texels; width, height, kind.
 vec3 image_texel(paint_record p, uvec4 level, int x, int y) {
     uint i = level.x + uint(y) * level.y + uint(x);
-    vec3 color;
-    if ((p.flags & PAINT_FLOATS) != 0u) {
-        color = uintBitsToFloat(FETCH(paints, i).xyz);
-    } else {
-        uint bytes = component_of(FETCH(paints, i >> 2u), i);
+    uvec4 word = FETCH(paints, i >> level.w);
+    vec3 color = uintBitsToFloat(word.xyz);
+    if (level.w == TEXELS_BYTES) {
+        uint bytes = component_of(word, i);
         color = vec3(decoded(p, bytes & 255u), decoded(p, bytes >> 8u & 255u), decoded(p, bytes >> 16u & 255u));
     }
+    uvec2 two = (i & 1u) == 0u ? word.xy : word.zw;
+    if (level.w == TEXELS_PACKED)
+        color = vec3(unpacked(two.x & 0x1fffffu), unpacked((two.x >> 21u) | (two.y & 0x3ffu) << 11u), unpacked(two.y >> 10u));
     return color;
 }
 
 // From any coordinate to 0..1.
-float folded(paint_record p, REAL x) {
+REAL folded(paint_record p, REAL x) {
     REAL rest = x - 2.0 * floor(x * 0.5);
     REAL inside = rest > 1.0 ? 2.0 - rest : rest;
     inside = (p.flags & PAINT_MIRROR) != 0u ? inside : x - floor(x);
-    inside = (p.flags & PAINT_CLAMP) != 0u ? clamp(x, 0.0, 1.0) : inside;
-    return float(inside);
+    return (p.flags & PAINT_CLAMP) != 0u ? clamp(x, 0.0, 1.0) : inside;
 }
 
 // The two texels beside a place along one side.
-ivec2 beside(paint_record p, float low, int size) {
-    int first = int(clamp(low, -1.0, float(size) - 1.0)), second = first + 1;
+ivec2 beside(paint_record p, REAL low, int size) {
+    int first = int(clamp(low, -1.0, REAL(size) - 1.0)), second = first + 1;
     bool wraps = (p.flags & (PAINT_MIRROR | PAINT_CLAMP)) == 0u;
     first = first < 0 ? (wraps ? size - 1 : 0) : first;
     second = second >= size ? (wraps ? 0 : size - 1) : second;
@@ -86,38 +90,67 @@ ivec2 beside(paint_record p, float low, int size) {
 
 vec3 image_nearest(paint_record p, REAL2 at) {
     uvec4 level = FETCH(paints, p.levels);
-    float x = min(floor(folded(p, at.x) * float(level.y)), float(level.y) - 1.0);
-    float y = min(floor((1.0 - folded(p, at.y)) * float(level.z)), float(level.z) - 1.0);
+    REAL x = min(floor(folded(p, at.x) * REAL(level.y)), REAL(level.y) - 1.0);
+    REAL y = min(floor((1.0 - folded(p, at.y)) * REAL(level.z)), REAL(level.z) - 1.0);
     return image_texel(p, level, int(x), int(y));
 }
 
 vec3 image_bilinear(paint_record p, uint number, REAL2 at) {
     uvec4 level = FETCH(paints, p.levels + number);
-    float x = folded(p, at.x) * float(level.y) - 0.5, y = (1.0 - folded(p, at.y)) * float(level.z) - 0.5;
-    float x0 = floor(x), y0 = floor(y);
+    REAL x = folded(p, at.x) * REAL(level.y) - 0.5, y = (1.0 - folded(p, at.y)) * REAL(level.z) - 0.5;
+    REAL x0 = floor(x), y0 = floor(y);
+    float right = float(x - x0), low = float(y - y0);
     ivec2 column = beside(p, x0, int(level.y)), row = beside(p, y0, int(level.z));
 #ifdef WEBGPU
     // The same sums, texel by texel: a browser's compiler puts each call's code in its place.
     vec3 sum = vec3(0.0), side = vec3(0.0);
     for (uint i = 0u; i < 4u + OPAQUE_ZERO; i++) {
         vec3 texel = image_texel(p, level, (i & 1u) == 0u ? column.x : column.y, i < 2u ? row.x : row.y);
-        side = (i & 1u) == 0u ? texel * (1.0 - (x - x0)) : side + texel * (x - x0);
+        side = (i & 1u) == 0u ? texel * (1.0 - right) : side + texel * right;
         if ((i & 1u) != 0u)
-            sum = i < 2u ? side * (1.0 - (y - y0)) : sum + side * (y - y0);
+            sum = i < 2u ? side * (1.0 - low) : sum + side * low;
     }
     return sum;
 #else
-    vec3 upper = image_texel(p, level, column.x, row.x) * (1.0 - (x - x0)) + image_texel(p, level, column.y, row.x) * (x - x0);
-    vec3 lower = image_texel(p, level, column.x, row.y) * (1.0 - (x - x0)) + image_texel(p, level, column.y, row.y) * (x - x0);
-    return upper * (1.0 - (y - y0)) + lower * (y - y0);
+    vec3 above = image_texel(p, level, column.x, row.x) * (1.0 - right) + image_texel(p, level, column.y, row.x) * right;
+    vec3 below = image_texel(p, level, column.x, row.y) * (1.0 - right) + image_texel(p, level, column.y, row.y) * right;
+    return above * (1.0 - low) + below * low;
 #endif
+}
+
+// ---- taps
+
+// An axis that is `parts` times as long as each of its taps, evenly around the middle: whole ones, and at both ends what is
+// left, half each. So their places and weights change evenly with `parts`.
+struct tap_row {
+    float parts; // 1 .. TAPS_MAX
+    uint count;  // odd
+    float end;   // how much of a tap the first and the last one are
+};
+
+tap_row taps_of(float longer, float shorter) {
+    tap_row row;
+    row.parts = longer >= float(TAPS_MAX) * shorter ? float(TAPS_MAX) : longer <= shorter ? 1.0 : longer / shorter;
+    float pairs = ceil((row.parts - 1.0) * 0.5);
+    row.count = 2u * uint(pairs) + 1u;
+    row.end = pairs == 0.0 ? 1.0 : (row.parts - (2.0 * pairs - 1.0)) * 0.5;
+    return row;
+}
+
+float tap_weight(tap_row row, uint i) { return i == 0u || i + 1u == row.count ? row.end : 1.0; }
+
+// Its middle, from -1/2 to 1/2 along the axis.
+float tap_place(tap_row row, uint i) {
+    float last = float(row.count / 2u), from_middle = float(i) - last;
+    float inward = 0.5 * (1.0 - row.end);
+    from_middle += i == 0u ? inward : i + 1u == row.count ? -inward : 0.0;
+    return from_middle / row.parts;
 }
 
 // ---- images
 
-uint taps_of(float longer, float shorter) {
-    return longer >= float(TAPS_MAX) * shorter ? TAPS_MAX : longer <= shorter ? 1u : uint(ceil(longer / shorter));
-}
+// Footprints that are longer are all the same: squares of squares must be floats, too.
+const float MOST_PIXELS = 1073741824.0;
 
 // Grows by one with each power of two, and evenly between them.
 float level_of(float size, uint count) {
@@ -126,45 +159,62 @@ float level_of(float size, uint count) {
     return size > 1.0 ? min(level, float(count) - 1.0) : 0.0;
 }
 
+// The ellipse of two vectors to its rim that are each other's conjugates, in pixels: its axes do not depend on which two.
+struct image_ellipse {
+    vec2 axis; // its longer one
+    float longer, shorter;
+};
+
+image_ellipse ellipse_of(vec2 a, vec2 b) {
+    float xx = a.x * a.x + b.x * b.x, yy = a.y * a.y + b.y * b.y, xy = a.x * a.y + b.x * b.y;
+    float part = 0.5 * (xx - yy), root = sqrt(part * part + xy * xy);
+    vec2 way = part >= 0.0 ? vec2(root + part, xy) : vec2(xy, root - part);
+    float size = sqrt(way.x * way.x + way.y * way.y);
+    image_ellipse e;
+    e.longer = sqrt(0.5 * (xx + yy) + root);
+    e.axis = size > 0.0 ? way * (e.longer / size) : vec2(e.longer, 0.0);
+    e.shorter = e.longer > 0.0 ? abs(a.x * b.y - a.y * b.x) / e.longer : 0.0;
+    return e;
+}
+
 vec3 image_filtered(paint_record p, REAL2 at, vec2 along, vec2 across) {
     vec2 size = vec2(FETCH(paints, p.levels).yz);
-    vec2 a = along * size, b = across * size;
-    float la = sqrt(a.x * a.x + a.y * a.y), lb = sqrt(b.x * b.x + b.y * b.y);
-    bool is_across = lb > la;
-    float longer = max(la, lb), shorter = min(la, lb);
-    vec2 axis = is_across ? across : along;
-    uint taps = longer > 1.0 ? taps_of(longer, max(shorter, 1.0)) : 1u;
-    float level = level_of(max(longer / float(taps), shorter), p.level_count);
+    image_ellipse e = ellipse_of(clamp(along * size, -MOST_PIXELS, MOST_PIXELS), clamp(across * size, -MOST_PIXELS, MOST_PIXELS));
+    tap_row row = taps_of(e.longer, max(e.shorter, 1.0));
+    float level = level_of(max(e.longer / float(TAPS_MAX), e.shorter), p.level_count);
     uint below = uint(level);
     float share = level - float(below);
+    vec2 axis = e.axis / size;
     vec3 sum = vec3(0.0);
     // The last level's next is itself: lavapipe computes it for all lanes.
     uint above = min(below + 1u, p.level_count - 1u);
-    for (uint i = 0u; i < taps; i++) {
-        if (i < taps) {
-            REAL2 tap = at + REAL2(axis * ((float(i) + 0.5) / float(taps) - 0.5));
+    for (uint i = 0u; i < row.count; i++) {
+        if (i < row.count) {
+            REAL2 tap = at + REAL2(axis * tap_place(row, i));
+            float weight = tap_weight(row, i);
 #ifdef WEBGPU
             vec3 level_sum = vec3(0.0);
             for (uint k = 0u; k < 2u + OPAQUE_ZERO; k++) {
                 vec3 color = image_bilinear(p, k == 0u ? below : above, tap);
                 level_sum = k == 0u ? color * (1.0 - share) : level_sum + color * share;
             }
-            sum += level_sum;
+            sum += level_sum * weight;
 #else
-            sum += image_bilinear(p, below, tap) * (1.0 - share) + image_bilinear(p, above, tap) * share;
+            sum += (image_bilinear(p, below, tap) * (1.0 - share) + image_bilinear(p, above, tap) * share) * weight;
 #endif
         }
     }
-    return sum / float(taps);
+    return sum / row.parts;
 }
 
 vec2 turned(paint_record p, vec2 v) {
-    return vec2(p.row_u.x * v.x + p.row_u.y * v.y, p.row_v.x * v.x + p.row_v.y * v.y);
+    vec2 to_u = vec2(p.row_u.xy), to_v = vec2(p.row_v.xy);
+    return vec2(to_u.x * v.x + to_u.y * v.y, to_v.x * v.x + to_v.y * v.y);
 }
 
 vec3 image_color(paint_record p, paint_spot spot) {
-    REAL2 at = REAL2(REAL(p.row_u.x) * spot.at.x + REAL(p.row_u.y) * spot.at.y + REAL(p.row_u.z),
-                     REAL(p.row_v.x) * spot.at.x + REAL(p.row_v.y) * spot.at.y + REAL(p.row_v.z));
+    REAL2 at = REAL2(p.row_u.x * spot.at.x + p.row_u.y * spot.at.y + p.row_u.z,
+                     p.row_v.x * spot.at.x + p.row_v.y * spot.at.y + p.row_v.z);
     vec3 color = vec3(0.0);
     if ((p.flags & PAINT_NEAREST) != 0u)
         color = image_nearest(p, at);
@@ -191,31 +241,41 @@ float odd_share(REAL3 at, vec3 along, vec3 across, bool is_flat) {
     float la = float(sqrt(dot3(REAL3(along), REAL3(along)))), lb = float(sqrt(dot3(REAL3(across), REAL3(across))));
     bool is_across = lb > la;
     vec3 axis = is_across ? across : along, other = is_across ? along : across;
-    uint taps = taps_of(max(la, lb), min(la, lb));
-    vec3 w = abs(axis) / float(taps) + abs(other);
+    tap_row row = taps_of(max(la, lb), min(la, lb));
     float sum = 0.0;
-    for (uint i = 0u; i < taps; i++) {
-        if (i < taps) {
-            REAL3 tap = at + REAL3(axis * ((float(i) + 0.5) / float(taps) - 0.5));
+    for (uint i = 0u; i < row.count; i++) {
+        if (i < row.count) {
+            REAL3 tap = at + REAL3(axis * tap_place(row, i));
+            float weight = tap_weight(row, i);
+            vec3 w = abs(axis) * (weight / row.parts) + abs(other);
             float third = wave(tap.z, w.z);
-            sum += wave(tap.x, w.x) * wave(tap.y, w.y) * (is_flat ? 1.0 : third);
+            sum += wave(tap.x, w.x) * wave(tap.y, w.y) * (is_flat ? 1.0 : third) * weight;
         }
     }
-    return 0.5 - 0.5 * sum / float(taps);
+    return 0.5 - 0.5 * sum / row.parts;
 }
 
 // ---- coordinates
 
-// Of a mesh's triangle: two words of its three corners, from the body's first one on.
+// Of a mesh's triangle: COORDINATE_WORDS of its three corners, from the body's first one on.
 void mesh_spot(uint coordinates, uint triangle, REAL b1, REAL b2, vec2 db_along, vec2 db_across, inout paint_spot spot) {
-    uint at = (coordinates & ~1u) + 2u * triangle;
+#ifdef DOUBLE_PRECISION
+    uint at = (coordinates & ~1u) + COORDINATE64_WORDS * triangle;
+    uvec4 first = FETCH(paints, at), next = FETCH(paints, at + 1u), last = FETCH(paints, at + 2u);
+    dvec2 t0 = dvec2(packDouble2x32(first.xy), packDouble2x32(first.zw));
+    dvec2 second = dvec2(packDouble2x32(next.xy), packDouble2x32(next.zw));
+    dvec2 third = dvec2(packDouble2x32(last.xy), packDouble2x32(last.zw));
+#else
+    uint at = (coordinates & ~1u) + COORDINATE_WORDS * triangle;
     vec4 first = uintBitsToFloat(FETCH(paints, at));
-    vec2 third = uintBitsToFloat(FETCH(paints, at + 1u).xy);
+    vec2 t0 = first.xy, second = first.zw, third = uintBitsToFloat(FETCH(paints, at + 1u).xy);
+#endif
     bool exchanged = (coordinates & 1u) != 0u;
-    vec2 t0 = first.xy, t1 = (exchanged ? third : first.zw) - t0, t2 = (exchanged ? first.zw : third) - t0;
-    spot.at = REAL2(t0) + REAL2(t1) * b1 + REAL2(t2) * b2;
-    spot.along = t1 * db_along.x + t2 * db_along.y;
-    spot.across = t1 * db_across.x + t2 * db_across.y;
+    REAL2 t1 = (exchanged ? third : second) - t0, t2 = (exchanged ? second : third) - t0;
+    spot.at = t0 + t1 * b1 + t2 * b2;
+    vec2 edge1 = vec2(t1), edge2 = vec2(t2);
+    spot.along = edge1 * db_along.x + edge2 * db_along.y;
+    spot.across = edge1 * db_across.x + edge2 * db_across.y;
 }
 
 void half_spot(bool is_second, REAL2 at, vec2 db_along, vec2 db_across, inout paint_spot spot) {
@@ -226,18 +286,27 @@ void half_spot(bool is_second, REAL2 at, vec2 db_along, vec2 db_across, inout pa
 }
 
 // Longitude and latitude of a sphere's unit normal, as the background's; v grows to +y.
-vec2 sphere_change(vec3 o, vec3 axis, float radius) {
-    vec3 way = axis / radius;
-    float around2 = max(o.x * o.x + o.z * o.z, 1e-12);
-    return vec2((o.x * way.z - o.z * way.x) / around2 * (0.5 / PI), way.y / sqrt(around2) * (1.0 / PI));
+struct sphere_map {
+    vec3 o;
+    vec2 outward; // x and z of the meridian, unit
+    float around; // how far from the axis, radius 1
+    float least;  // the same, but not less than where a pixel covers all longitudes
+};
+
+vec2 sphere_change(sphere_map map, vec3 way) {
+    float down = (map.outward.x * way.x + map.outward.y * way.z) * map.o.y - way.y * map.around;
+    return vec2((map.outward.x * way.z - map.outward.y * way.x) / map.least * (0.5 / PI), -down * (1.0 / PI));
 }
 
-void sphere_spot(REAL3 outward, REAL radius, inout paint_spot spot) {
-    vec3 o = vec3(outward);
-    float around = sqrt(o.x * o.x + o.z * o.z);
-    spot.at = REAL2(0.5 + arctan2(o.z, o.x) * (0.5 / PI), 1.0 - arctan2(around, o.y) * (1.0 / PI));
-    spot.along = sphere_change(o, vec3(spot.axis_along), float(radius));
-    spot.across = sphere_change(o, vec3(spot.axis_across), float(radius));
+void sphere_spot(REAL3 outward, REAL radius, float width, inout paint_spot spot) {
+    REAL around = sqrt(outward.x * outward.x + outward.z * outward.z);
+    spot.at = REAL2(0.5 + arctan2(outward.z, outward.x) * (0.5 / REAL_PI), 1.0 - arctan2(around, outward.y) * (1.0 / REAL_PI));
+    float size = float(radius);
+    sphere_map map = sphere_map(vec3(outward), vec2(1.0, 0.0), float(around), 0.0);
+    map.least = max(max(map.around, abs(width) / size * (0.5 / PI)), 1e-12);
+    map.outward = map.around > 0.0 ? map.o.xz / map.around : map.outward;
+    spot.along = sphere_change(map, vec3(spot.axis_along / radius));
+    spot.across = sphere_change(map, vec3(spot.axis_across / radius));
 }
 
 // ---- cones

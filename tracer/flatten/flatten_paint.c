@@ -12,14 +12,18 @@ enum {
     PIECE_ROWS = 16,
     PIECE_TRIANGLES = 8192,
     TABLE_WORDS = 256,
-    BYTES_PER_WORD = 4, // texels of an 8-bit image
     BODIES_PER_WORD = 4,
 };
+
+// Kinds of texels: a word has two to the power of these.
+static const uint32_t kinds[] = {[SCENE_TEXELS_BYTES] = TEXELS_BYTES,
+                                 [SCENE_TEXELS_PACKED] = TEXELS_PACKED,
+                                 [SCENE_TEXELS_FLOATS] = TEXELS_FLOATS};
 
 // Where an image's parts lie, in words.
 struct placed_texture {
     uint64_t levels, table;
-    uint64_t texels[SCENE_LEVELS_MAX]; // of 8-bit ones in components
+    uint64_t texels[SCENE_LEVELS_MAX]; // counted in texels
 };
 
 // ---- what a material needs
@@ -47,15 +51,15 @@ static bool is_any_painted(const struct flattening *f) {
 // ---- places
 
 static void place_texture(const struct scene_texture *t, uint64_t *end, struct placed_texture *out) {
-    out->table = t->is_srgb && t->levels[0].is_bytes ? *end : 0;
+    out->table = t->is_srgb && t->levels[0].texels == SCENE_TEXELS_BYTES ? *end : 0;
     *end += out->table ? TABLE_WORDS : 0;
     out->levels = *end;
     *end += t->level_count;
     for (uint32_t i = 0; i < t->level_count; i++) {
         const struct scene_level *level = &t->levels[i];
-        const uint64_t texels = (uint64_t)level->width * level->height;
-        out->texels[i] = level->is_bytes ? *end * BYTES_PER_WORD : *end;
-        *end += level->is_bytes ? (texels + BYTES_PER_WORD - 1) / BYTES_PER_WORD : texels;
+        const uint32_t kind = kinds[level->texels], per_word = UINT32_C(1) << kind;
+        out->texels[i] = *end << kind;
+        *end += ((uint64_t)level->width * level->height + per_word - 1) >> kind;
     }
 }
 
@@ -71,6 +75,10 @@ static uint32_t first_with_mesh(const struct flattening *f, uint32_t number) {
     return number;
 }
 
+static uint32_t coordinate_words(const struct flattening *f) {
+    return f->out->is_double ? COORDINATE64_WORDS : COORDINATE_WORDS;
+}
+
 static void place_coordinates(const struct flattening *f, uint64_t *end) {
     f->out->coordinates_table = (uint32_t)*end;
     *end += ((uint64_t)f->scene->body_count + BODIES_PER_WORD - 1) / BODIES_PER_WORD;
@@ -82,7 +90,8 @@ static void place_coordinates(const struct flattening *f, uint64_t *end) {
         const uint32_t first = first_with_mesh(f, i);
         f->coordinates[i] = first < i ? f->coordinates[first] & ~UINT32_C(1) : (uint32_t)*end;
         f->coordinates[i] |= body->mirrored;
-        *end += first < i ? 0 : 2 * (uint64_t)body->triangle_count;
+        *end += first < i ? 0 : coordinate_words(f) * (uint64_t)body->triangle_count;
+        *end += *end & 1;
     }
 }
 
@@ -95,28 +104,28 @@ struct filling {
     uint64_t first;         // texel
 };
 
-static void put_part(struct gpu_word *words, uint64_t component, uint32_t value) {
-    gpu_pack_uint(words + component / BYTES_PER_WORD, 0, (uint32_t)(component % BYTES_PER_WORD), value);
+static uint32_t stored_bytes(const struct scene_texture *t, uint64_t at) {
+    const uint8_t *p = (const uint8_t *)t->picture->pixels + 3 * at;
+    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16;
 }
 
-static uint32_t stored_bytes(const struct scene_texture *t, uint32_t level, uint64_t at) {
-    const uint8_t *p =
-        (level ? (const uint8_t *)t->levels[level].pixels : (const uint8_t *)t->picture->pixels) + 3 * at;
-    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16;
+static void put_texel(const struct filling *fill, uint32_t x, uint32_t y) {
+    const struct scene_level *level = &fill->texture->levels[fill->level];
+    const uint64_t at = (uint64_t)y * level->width + x, to = fill->first + at;
+    if (level->texels == SCENE_TEXELS_BYTES)
+        gpu_pack_uint(fill->words + to / 4, 0, (uint32_t)(to % 4), stored_bytes(fill->texture, at));
+    else if (level->texels == SCENE_TEXELS_PACKED)
+        memcpy((uint64_t *)fill->words + to, (const uint64_t *)level->pixels + at, sizeof(uint64_t));
+    else
+        gpu_pack_float3(fill->words + to, 0, scene_texel(fill->texture, fill->level, x, y));
 }
 
 static void fill_rows(void *context, size_t begin, size_t end) {
     const struct filling *fill = context;
     const struct scene_level *level = &fill->texture->levels[fill->level];
     for (size_t y = begin; y < end; y++)
-        for (uint32_t x = 0; x < level->width; x++) {
-            const uint64_t at = (uint64_t)y * level->width + x;
-            if (level->is_bytes)
-                put_part(fill->words, fill->first + at, stored_bytes(fill->texture, fill->level, at));
-            else
-                gpu_pack_float3(fill->words + fill->first + at, 0,
-                                scene_texel(fill->texture, fill->level, x, (uint32_t)y));
-        }
+        for (uint32_t x = 0; x < level->width; x++)
+            put_texel(fill, x, (uint32_t)y);
 }
 
 static void fill_texture(const struct scene_texture *t, const struct placed_texture *placed,
@@ -126,15 +135,18 @@ static void fill_texture(const struct scene_texture *t, const struct placed_text
     for (uint32_t i = 0; i < t->level_count; i++) {
         const struct scene_level *level = &t->levels[i];
         struct gpu_word *word = words + placed->levels + i;
-        *word = (struct gpu_word){(uint32_t)placed->texels[i], level->width, level->height, 0};
+        *word =
+            (struct gpu_word){(uint32_t)placed->texels[i], level->width, level->height, kinds[level->texels]};
         struct filling fill = {t, i, words, placed->texels[i]};
-        parallel_for(level->height, level->is_bytes ? level->height : PIECE_ROWS, fill_rows, &fill);
+        const bool is_copied = level->texels != SCENE_TEXELS_FLOATS;
+        parallel_for(level->height, is_copied ? level->height : PIECE_ROWS, fill_rows, &fill);
     }
 }
 
 struct coordinates {
     const struct scene_body *body;
     struct gpu_word *words;
+    bool is_double;
 };
 
 static void fill_coordinates(void *context, size_t begin, size_t end) {
@@ -142,9 +154,13 @@ static void fill_coordinates(void *context, size_t begin, size_t end) {
     for (size_t i = begin; i < end; i++) {
         struct ir_pair at[3];
         scene_coordinates(c->body, (uint32_t)i, at);
-        for (uint32_t k = 0; k < 3; k++) {
-            gpu_pack_float(c->words + 2 * i, k / 2, 2 * (k % 2), at[k].u);
-            gpu_pack_float(c->words + 2 * i, k / 2, 2 * (k % 2) + 1, at[k].v);
+        for (uint32_t k = 0; k < 3 && c->is_double; k++) {
+            gpu_pack_double(c->words + COORDINATE64_WORDS * i, k, GPU_PART_xy, at[k].u);
+            gpu_pack_double(c->words + COORDINATE64_WORDS * i, k, GPU_PART_zw, at[k].v);
+        }
+        for (uint32_t k = 0; k < 3 && !c->is_double; k++) {
+            gpu_pack_float(c->words + COORDINATE_WORDS * i, k / 2, 2 * (k % 2), at[k].u);
+            gpu_pack_float(c->words + COORDINATE_WORDS * i, k / 2, 2 * (k % 2) + 1, at[k].v);
         }
     }
 }
@@ -162,11 +178,14 @@ static struct gpu_paint record_of(const struct scene_material *m, int which,
     record.flags |= (image->filter == IR_FILTER_NEAREST ? PAINT_NEAREST : 0) |
                     (image->filter == IR_FILTER_AUTO ? PAINT_AUTO : 0) |
                     (image->wrap == IR_WRAP_CLAMP ? PAINT_CLAMP : 0) |
-                    (image->wrap == IR_WRAP_MIRROR ? PAINT_MIRROR : 0) |
-                    (image->texture->levels[0].is_bytes ? 0 : PAINT_FLOATS);
+                    (image->wrap == IR_WRAP_MIRROR ? PAINT_MIRROR : 0);
     record.row_u = (vec3){image->u[0], image->u[1], image->u[2]};
     record.row_v = (vec3){image->v[0], image->v[1], image->v[2]};
     return record;
+}
+
+static uint32_t paint_words(const struct flattening *f) {
+    return f->out->is_double ? PAINT64_WORDS : PAINT_WORDS;
 }
 
 static void fill_records(const struct flattening *f, const struct placed_texture *placed) {
@@ -174,17 +193,17 @@ static void fill_records(const struct flattening *f, const struct placed_texture
         for (uint32_t k = 0; k < ASSETS_IMAGES; k++) {
             const struct gpu_paint record = record_of(&f->scene->materials[i], (int)k, placed);
             gpu_pack_paint(&record, f->out->is_double,
-                           f->out->paints.words + ((size_t)ASSETS_IMAGES * i + k) * PAINT_WORDS);
+                           f->out->paints.words + ((size_t)ASSETS_IMAGES * i + k) * paint_words(f));
         }
 }
 
 static enum flatten_fault fill_all(struct flattening *f, struct placed_texture *placed) {
-    uint64_t end = (uint64_t)f->scene->material_count * ASSETS_IMAGES * PAINT_WORDS;
+    uint64_t end = (uint64_t)f->scene->material_count * ASSETS_IMAGES * paint_words(f);
     for (const struct scene_texture *t = f->scene->textures; t; t = t->next)
         place_texture(t, &end, &placed[t->number]);
     place_coordinates(f, &end);
-    // Components of 8-bit texels have 32-bit numbers.
-    if (end > UINT32_MAX / BYTES_PER_WORD) {
+    // Texels have 32-bit numbers.
+    if (end > UINT32_MAX >> TEXELS_BYTES) {
         diag_add(f->input->sink, DIAG_LIMIT, SPAN_NONE,
                  "all images together have more than 16 GiB of texels");
         return FLATTEN_REPORTED;
@@ -199,7 +218,8 @@ static enum flatten_fault fill_all(struct flattening *f, struct placed_texture *
                       i % BODIES_PER_WORD, f->coordinates[i]);
         if (!f->coordinates[i] || first_with_mesh(f, i) < i)
             continue;
-        struct coordinates coordinates = {body, f->out->paints.words + (f->coordinates[i] & ~UINT32_C(1))};
+        struct coordinates coordinates = {body, f->out->paints.words + (f->coordinates[i] & ~UINT32_C(1)),
+                                          f->out->is_double};
         parallel_for(body->triangle_count, PIECE_TRIANGLES, fill_coordinates, &coordinates);
     }
     fill_records(f, placed);

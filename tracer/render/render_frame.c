@@ -95,6 +95,8 @@ static void put_place(const struct render_settings *settings, struct frame_block
     frame->first_y = settings->first_y;
     frame->width = settings->width;
     frame->height = settings->height;
+    frame->double_background_cos = cos_degrees(settings->background_rotation);
+    frame->double_background_sin = cos_degrees(settings->background_rotation - 90);
     frame->point_bits = settings->whole_samples ? points_bits(0, settings->whole_samples)
                                                 : points_bits(settings->first_sample, settings->samples);
 }

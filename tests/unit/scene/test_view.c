@@ -285,9 +285,10 @@ static void samples_follow_the_sequence(void **state) {
     view_sample_offset(0, &a, &b);
     assert_true(a == 0.5 && b == 0.5);
     view_sample_offset(1, &a, &b);
-    assert_near((vec3){a, b, 0}, 0.25487766624669272, 0.06984029099805327, 0);
+    // As floats: devices and the reference look at the same place.
+    assert_exact((vec3){a, b, 0}, (double)0.25487766624669272F, (double)0.06984029099805327F, 0);
     view_sample_offset(2, &a, &b);
-    assert_near((vec3){a, b, 0}, 0.00975533249338543, 0.63968058199610653, 0);
+    assert_exact((vec3){a, b, 0}, (double)0.00975533249338543F, (double)0.63968058199610653F, 0);
     for (uint32_t n = 0; n < 4096; n++) {
         view_sample_offset(n, &a, &b);
         assert_true(a >= 0 && a < 1 && b >= 0 && b < 1);
