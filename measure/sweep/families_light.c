@@ -99,6 +99,19 @@ void sweep_make_sizes(struct sweep_writer *w) {
     w->samples = sweep_chance(w, 0.5) ? 1 : some_samples(w);
 }
 
+void sweep_make_sparks(struct sweep_writer *w) {
+    sweep_still_life(w);
+    const uint32_t count = sweep_count(w, 3, 12);
+    for (uint32_t i = 0; i < count; i++) {
+        struct sweep_paint paint = sweep_chance(w, 0.4) ? sweep_mirror(w) : sweep_matt(w);
+        paint.specular = sweep_magnitude(w, 0.5, 50);
+        paint.exponent = sweep_magnitude(w, 30, 1e5);
+        const double radius = sweep_magnitude(w, 0.03, 1);
+        sweep_sphere(w, sweep_box(w, -3, 3, radius, 2, -3, 4), radius, &paint);
+    }
+    w->samples = some_samples(w);
+}
+
 // The whole scene, and its mesh, a millionth or a million times as large as others.
 void sweep_make_scaled(struct sweep_writer *w) {
     const struct sweep_paint paint = sweep_any_paint(w);

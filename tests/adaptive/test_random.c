@@ -2,7 +2,7 @@
 // by more than what they state as their most.
 //
 // Usage: test_random [--seed S] [--first N] [--count N] [--truth SAMPLES] [--size WxH] [--error E]
-//   [--samples MOST] [--max-broken N]
+//   [--samples MOST] [--max-broken N] [--family NAME]
 // A line a scene, which are number FIRST and the COUNT - 1 that follow of those that the seed makes
 // (measure/sweep): the root of the mean square that the picture is off, what it states of it, and its
 // samples. A long run is cut into several by --first. The exit status is 1 if more than --max-broken pictures
@@ -23,9 +23,9 @@
 
 // Those whose pictures have edges, highlights, mirrors, soft shadows and what else takes samples.
 static const enum sweep_family families[] = {
-    SWEEP_STILL,    SWEEP_MIRROR_BALLS, SWEEP_MANY_LIGHTS, SWEEP_HIGHLIGHTS, SWEEP_LENS,
-    SWEEP_TOUCHING, SWEEP_ROUGH,        SWEEP_LAMPS,       SWEEP_OCCLUDED,   SWEEP_BALL_CHAIN,
-    SWEEP_IMAGES,   SWEEP_GEM,          SWEEP_SMOOTH,      SWEEP_BALL_FIELD, SWEEP_MIX,
+    SWEEP_STILL,  SWEEP_MIRROR_BALLS, SWEEP_MANY_LIGHTS, SWEEP_HIGHLIGHTS, SWEEP_LENS,   SWEEP_TOUCHING,
+    SWEEP_ROUGH,  SWEEP_LAMPS,        SWEEP_OCCLUDED,    SWEEP_BALL_CHAIN, SWEEP_IMAGES, SWEEP_GEM,
+    SWEEP_SPARKS, SWEEP_SMOOTH,       SWEEP_BALL_FIELD,  SWEEP_MIX,
 };
 enum {
     FAMILIES = sizeof families / sizeof *families
@@ -34,6 +34,7 @@ enum {
 struct run {
     int64_t seed, first, count, truth, width, height, samples, max_broken;
     double error;
+    const char *family; // the only one; NULL: all take turns
     struct picture_kit kit;
     uint32_t broken, failed;
     double samples_mean; // of all pictures
@@ -145,8 +146,12 @@ static bool take(struct taken *t, struct run *run) {
 
 static void take_scene(struct run *run, int64_t index) {
     struct taken t = {0};
+    enum sweep_family family = families[index % FAMILIES];
+    for (int i = 0; run->family && i < SWEEP_FAMILIES; i++)
+        family = strcmp(run->family, sweep_families[i].name) == 0 ? (enum sweep_family)i : family;
     arena_init(&t.arena, SIZE_MAX);
-    sweep_scene_make(&t.made, (uint64_t)run->seed, families[index % FAMILIES], (uint32_t)(index / FAMILIES));
+    sweep_scene_make(&t.made, (uint64_t)run->seed, family,
+                     (uint32_t)(run->family ? index : index / FAMILIES));
     if (!take(&t, run)) {
         printf("FAIL %s is not drawn\n", t.made.name);
         run->failed++;
@@ -161,15 +166,11 @@ static void take_scene(struct run *run, int64_t index) {
 
 static bool read_options(int argc, char **argv, struct run *run) {
     static const struct option longs[] = {
-        {"seed", required_argument, NULL, 's'},
-        {"first", required_argument, NULL, 'f'},
-        {"count", required_argument, NULL, 'c'},
-        {"truth", required_argument, NULL, 't'},
-        {"size", required_argument, NULL, 'x'},
-        {"error", required_argument, NULL, 'e'},
-        {"samples", required_argument, NULL, 'n'},
-        {"max-broken", required_argument, NULL, 'b'},
-        {NULL, 0, NULL, 0},
+        {"seed", required_argument, NULL, 's'},    {"first", required_argument, NULL, 'f'},
+        {"count", required_argument, NULL, 'c'},   {"truth", required_argument, NULL, 't'},
+        {"size", required_argument, NULL, 'x'},    {"error", required_argument, NULL, 'e'},
+        {"samples", required_argument, NULL, 'n'}, {"max-broken", required_argument, NULL, 'b'},
+        {"family", required_argument, NULL, 'm'},  {NULL, 0, NULL, 0},
     };
     for (int option; (option = getopt_long(argc, argv, "", longs, NULL)) != -1;) {
         int64_t *const to = option == 's'   ? &run->seed
@@ -180,11 +181,14 @@ static bool read_options(int argc, char **argv, struct run *run) {
                                             : &run->max_broken;
         if (option == '?')
             return false;
-        if (option == 'e')
+        if (option == 'm')
+            run->family = optarg;
+        else if (option == 'e')
             run->error = strtod(optarg, NULL);
         else if (option == 'x' && sscanf(optarg, "%ldx%ld", &run->width, &run->height) != 2)
             return false;
-        else if (option != 'e' && option != 'x' && number_parse_integer(str_from(optarg), to) != NUMBER_OK)
+        else if (option != 'e' && option != 'm' && option != 'x' &&
+                 number_parse_integer(str_from(optarg), to) != NUMBER_OK)
             return false;
     }
     return optind == argc && run->width > 0 && run->height > 0 && run->count > 0 && run->error > 0;
