@@ -42,10 +42,6 @@ enum shot_status audit_take(struct session *session, const struct view *view, co
                             struct audit *out);
 // Whether a pixel is off: its linear values by the device, and by the reference.
 bool audit_is_off(const float rgb[3], const double exact[3], struct image_display display);
-// The least share such that `off` or fewer of `pixels` occur with a probability of at most `risk`, and the
-// greatest such that `off` or more do. `pixels` is at least 1.
-double audit_bound(uint32_t off, uint32_t pixels, double risk);
-double audit_floor(uint32_t off, uint32_t pixels, double risk);
 // "at most 0.0995 % of the pixels are off by more than 1/255 (95 % sure): 0 of 3710 traced again ...", a line
 // without an end.
 void audit_words(const struct audit *audit, struct strbuf *out);

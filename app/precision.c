@@ -109,11 +109,20 @@ static void report_no_memory(struct session *session) {
              "there is not enough memory to measure the scene");
 }
 
+// Those that a pixel has at least.
+static uint32_t samples_of(const struct session *session) {
+    const struct ir_image *image = session->image;
+    const bool fewer = image->error > 0 && image->min_samples < image->samples;
+    return (uint32_t)(fewer ? image->min_samples : image->samples);
+}
+
 // Without a device.
 static bool forecast(const struct session *session, const struct flat_input *input,
                      struct precision_choice *out) {
-    const struct precision_trial trial = {
-        .input = input, .width = (uint32_t)session->image->width, .height = (uint32_t)session->image->height};
+    const struct precision_trial trial = {.input = input,
+                                          .width = (uint32_t)session->image->width,
+                                          .height = (uint32_t)session->image->height,
+                                          .samples = samples_of(session)};
     return precision_try(&trial, out, NULL) == PRECISION_DONE;
 }
 
@@ -159,6 +168,7 @@ static enum precision_status choose(struct session *session, struct flat_input *
     const struct precision_trial trial = {.input = input,
                                           .width = (uint32_t)session->image->width,
                                           .height = (uint32_t)session->image->height,
+                                          .samples = samples_of(session),
                                           .gpu = gpu,
                                           .counts = wish.counts,
                                           .reference = wish.reference,

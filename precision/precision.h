@@ -23,6 +23,7 @@ struct precision_choice {
     bool traced;                    // pixels were traced
     bool on_device;                 // and those of single precision on the device
     uint32_t pixels, off;           // so many, and those of them that differ
+    double share;                   // of the picture's pixels that differ, about
     bool needs_double;
 };
 
@@ -47,6 +48,7 @@ struct precision_gains {
 struct precision_trial {
     const struct flat_input *input; // is_double does not count
     uint32_t width, height;         // of the picture
+    uint32_t samples;               // of its pixels, the least where they differ; 0: 1
     struct gpu *gpu;                // NULL: none
     uint64_t features;              // compiled in beside what the scene wants
     bool counts;                    // draw with the kernel that counts, which is the one used afterwards

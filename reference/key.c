@@ -74,6 +74,7 @@ void reference_call_key(const uint64_t scene_key[2], const struct reference_sett
         hash128_whole(&h, settings->points_of);
         hash128_whole(&h, settings->footprint_of);
         hash128_whole(&h, settings->planned);
+        hash128_number(&h, settings->apart);
         hash128_whole(&h, settings->max_depth);
         hash128_number(&h, settings->min_weight);
         hash128_whole(&h, settings->cut_sees_background);

@@ -44,6 +44,10 @@ struct camera_ray reference_lens_ray(const struct reference *r, const struct ref
         points_at(points, point_key(point_root(points->x, points->y), POINT_PIXEL), &a, &b);
     else
         view_sample_offset(points->sample, &a, &b);
+    if (settings->apart > 1) {
+        a = 0.5 + (a - 0.5) / settings->apart;
+        b = 0.5 + (b - 0.5) / settings->apart;
+    }
     const struct place at = {2 * (points->x + a) / settings->width - 1,
                              1 - 2 * (points->y + b) / settings->height,
                              (double)settings->width / settings->height};

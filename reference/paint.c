@@ -22,7 +22,7 @@ struct cone reference_camera_cone(const struct reference *r, const struct refere
     const struct view_camera *camera = &r->input.view->camera;
     const uint32_t planned = settings->planned ? settings->planned : settings->samples;
     const uint32_t samples = settings->footprint_of ? settings->footprint_of : planned;
-    const double part = 1 / (settings->height * sqrt(samples));
+    const double part = 1 / (settings->height * sqrt(samples) * fmax(settings->apart, 1));
     switch (camera->projection) {
     case IR_PROJECTION_ORTHOGRAPHIC:
         return (struct cone){2 * camera->half_height * part, 0};

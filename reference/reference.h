@@ -67,6 +67,7 @@ struct reference_settings {
     // Above 0: lights, lens and roughness take points of so many samples, of which `samples` were traced, as
     // where a time ends a picture. 0: of `samples`.
     uint32_t planned;
+    double apart;             // above 1: pixels lie so many pixels apart, each as small as they; else 1 or 0
     uint32_t max_depth;       // a surface this deep sends no ray
     double min_weight;        // rays of a lower weight are not followed
     bool cut_sees_background; // what a ray sees that max_depth cut; else nothing

@@ -16,8 +16,8 @@ enum {
 };
 
 static bool is_clear(const struct precision_choice *choice) {
-    const double most = PRECISION_SHARE * PRECISION_PART * choice->pixels;
-    return choice->needs_double ? choice->off >= CLEAR * most : choice->off * CLEAR <= most;
+    const double most = PRECISION_SHARE * PRECISION_PART;
+    return choice->needs_double ? choice->share >= CLEAR * most : choice->share * CLEAR <= most;
 }
 
 static bool is_like(const struct precision_report *was, const struct precision_report *now, bool is_double) {

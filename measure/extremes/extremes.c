@@ -64,8 +64,11 @@ static enum extremes_status choose_precision(const struct run *run, const struct
     struct precision_choice choice = {.needs_double = false};
     if (run->input->alternative != RENDER_ALTERNATIVE_NONE)
         return EXTREMES_DONE;
-    const struct precision_trial trial = {
-        .input = input, .width = v->width, .height = v->height, .gpu = run->input->gpu};
+    const struct precision_trial trial = {.input = input,
+                                          .width = v->width,
+                                          .height = v->height,
+                                          .samples = v->samples,
+                                          .gpu = run->input->gpu};
     if (v->ir.trace.precision == IR_PRECISION_AUTO) {
         const enum precision_status tried = precision_try(&trial, &choice, NULL);
         if (tried == PRECISION_MEMORY || tried == PRECISION_DEVICE)

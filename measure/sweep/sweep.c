@@ -90,7 +90,6 @@ static enum sweep_status trace_reference(struct judging *j) {
     struct ir_image image = j->scene->ir->image;
     image.width = (int32_t)j->input->width;
     image.height = (int32_t)j->input->height;
-    image.samples = 1;
     const struct reference_settings settings =
         reference_settings_of(j->scene->ir, &image, j->input->limits, true);
     struct reference *reference = reference_create(&input);
@@ -104,24 +103,27 @@ static enum sweep_status trace_reference(struct judging *j) {
 }
 
 // The kernel is the general one, for every scene the same: compiling one for each would take longer than
-// all else.
-static enum sweep_status trace_device(struct judging *j, struct flat_input *input) {
-    struct flat_scene flat;
-    if (!flatten(input, &flat))
+// all else. `gains`: what the trial left, which is used again.
+static enum sweep_status trace_device(struct judging *j, struct flat_input *input,
+                                      struct precision_gains *gains) {
+    gains->has_flat = gains->has_flat || flatten(input, &gains->flat);
+    if (!gains->has_flat)
         return SWEEP_COORDINATES;
-    struct render_settings settings = render_settings_of(j->scene, &flat, j->input->limits);
+    struct render_settings settings = render_settings_of(j->scene, &gains->flat, j->input->limits);
     settings.width = j->input->width;
     settings.height = j->input->height;
-    settings.samples = 1;
     settings.features |= FEATURE_SCENE_MASK;
     struct render_statistics statistics;
-    struct renderer *renderer = renderer_create(j->input->gpu, &flat, &settings);
+    bool good;
+    if (gains->renderer)
+        good = renderer_change(gains->renderer, &gains->flat, &settings);
+    else
+        good = (gains->renderer = renderer_create(j->input->gpu, &gains->flat, &settings)) != NULL;
     const struct view_camera *camera = &j->view.camera;
-    const bool good = renderer &&
-                      (j->made->closed || renderer_hits(renderer, camera, j->hits[1], NULL) == RENDER_DONE) &&
-                      renderer_render(renderer, camera, j->rgb, NULL, &statistics) == RENDER_DONE;
-    renderer_destroy(renderer);
-    flat_finish(&flat);
+    good = good &&
+           (j->made->closed || renderer_hits(gains->renderer, camera, j->hits[1], NULL) == RENDER_DONE) &&
+           renderer_render(gains->renderer, camera, j->rgb, NULL, &statistics) == RENDER_DONE;
+    precision_drop(gains);
     return good ? SWEEP_DONE : SWEEP_DEVICE;
 }
 
@@ -141,12 +143,14 @@ static enum sweep_status judge_pictures(struct judging *j) {
                                .limits = j->input->limits,
                                .sink = &j->sink};
     struct precision_choice choice;
+    struct precision_gains gains;
     const struct precision_trial trial = {.input = &input,
                                           .width = j->input->width,
                                           .height = j->input->height,
+                                          .samples = (uint32_t)j->scene->ir->image.samples,
                                           .gpu = j->input->gpu,
                                           .features = FEATURE_SCENE_MASK};
-    const enum precision_status tried = precision_try(&trial, &choice, NULL);
+    const enum precision_status tried = precision_try(&trial, &choice, &gains);
     if (tried != PRECISION_DONE)
         return tried == PRECISION_MEMORY  ? SWEEP_MEMORY
                : tried == PRECISION_SCENE ? SWEEP_COORDINATES
@@ -154,16 +158,22 @@ static enum sweep_status judge_pictures(struct judging *j) {
     const struct precision_measure *least = &choice.report.least[choice.report.decides];
     j->item->is_double = precision_is_double(j->scene->ir, &choice);
     j->item->steps = least->any ? least->steps : (double)INFINITY;
-    j->item->trial_off = (double)choice.off / (choice.pixels ? choice.pixels : 1);
+    j->item->trial_off = choice.share;
     enum sweep_status status = trace_reference(j);
     if (status == SWEEP_DONE)
         take_picture(j, SWEEP_REFERENCE);
-    for (int twofold = 0; twofold < 2 && status == SWEEP_DONE; twofold++) {
-        input.is_double = twofold;
-        status = trace_device(j, &input);
+    if (status == SWEEP_DONE)
+        status = trace_device(j, &input, &gains);
+    if (status == SWEEP_DONE)
+        take_picture(j, SWEEP_SINGLE);
+    // Where single precision is right, double is too.
+    input.is_double = true;
+    if (status == SWEEP_DONE && j->item->pictures[SWEEP_SINGLE].wrong) {
+        status = trace_device(j, &input, &gains);
         if (status == SWEEP_DONE)
-            take_picture(j, twofold ? SWEEP_DOUBLE : SWEEP_SINGLE);
+            take_picture(j, SWEEP_DOUBLE);
     }
+    precision_drop(&gains);
     return status;
 }
 

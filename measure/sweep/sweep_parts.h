@@ -20,6 +20,7 @@ struct sweep_writer {
     uint32_t mesh_vertices;
     bool baked;       // this mesh's vertices are written in the scene's coordinates
     uint32_t depth;   // max_depth
+    uint32_t samples; // of a pixel
     vec3 background;  // colour
     double intensity; // of it
     bool has_camera;
@@ -31,6 +32,9 @@ struct sweep_paint {
     vec3 color, other; // other: of a checker's odd cells
     double cell;       // 0: no checker
     double exponent, index;
+    double roughness;
+    bool image;    // in place of the colour: one that is made for it
+    double repeat; // of it
 };
 
 typedef void sweep_maker(struct sweep_writer *w);
@@ -71,6 +75,12 @@ void sweep_light(struct sweep_writer *w, vec3 position, double intensity);
 void sweep_sun(struct sweep_writer *w, vec3 travels, double intensity);
 void sweep_sphere(struct sweep_writer *w, vec3 center, double radius, const struct sweep_paint *paint);
 void sweep_rectangle(struct sweep_writer *w, vec3 corner, vec3 u, vec3 v, const struct sweep_paint *paint);
+// Of the camera that was put last.
+void sweep_aperture(struct sweep_writer *w, double aperture, double focus);
+// Blocked by what is nearer than `occlusion`.
+void sweep_ambient(struct sweep_writer *w, double intensity, double occlusion);
+void sweep_ball_light(struct sweep_writer *w, vec3 position, double radius, double intensity);
+void sweep_panel_light(struct sweep_writer *w, vec3 corner, double side, double intensity); // shines down
 // No pixel may show the background; see sweep_scene.closed.
 void sweep_close(struct sweep_writer *w);
 

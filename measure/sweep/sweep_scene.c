@@ -18,9 +18,11 @@ static void put_list(struct strbuf *out, const char *name, const struct strbuf *
 
 static void put_scene(struct sweep_writer *w) {
     struct strbuf *out = &w->scene->text;
-    strbuf_format(
-        out, "glint: 1\ndescription: %s\nimage: {width: 640, height: 480}\ntrace: {max_depth: %u%s}\n",
-        sweep_families[w->scene->family].title, w->depth, w->scene->closed ? ", depth_limit: black" : "");
+    strbuf_format(out,
+                  "glint: 1\ndescription: %s\nimage: {width: 640, height: 480, samples: %u}\ntrace: "
+                  "{max_depth: %u%s}\n",
+                  sweep_families[w->scene->family].title, w->samples, w->depth,
+                  w->scene->closed ? ", depth_limit: black" : "");
     sweep_put_vector(out, "background: {color", w->background);
     strbuf_format(out, ", intensity: %.17g}\n", w->intensity);
     strbuf_str(out, strbuf_view(&w->head));
@@ -45,7 +47,7 @@ void sweep_scene_make(struct sweep_scene *scene, uint64_t seed, enum sweep_famil
     const struct sweep_family_info *info = &sweep_families[family];
     *scene = (struct sweep_scene){.family = family, .number = number};
     snprintf(scene->name, sizeof scene->name, "%s-%u.glint.yaml", info->name, number);
-    struct sweep_writer w = {.scene = scene, .random = seed, .depth = 4, .intensity = 1};
+    struct sweep_writer w = {.scene = scene, .random = seed, .depth = 4, .samples = 1, .intensity = 1};
     // Families that are added change no scene of the others: the name begins the numbers.
     for (const char *c = info->name; *c; c++)
         w.random = sweep_bits(&w) ^ (unsigned char)*c;

@@ -25,10 +25,11 @@ struct sweep_family_info {
 extern const struct sweep_family_info sweep_families[SWEEP_FAMILIES];
 
 enum {
-    SWEEP_MESHES = 8,
+    SWEEP_MESHES = 12,
     SWEEP_NAME_BYTES = 64,
 };
 
+// Or an image.
 struct sweep_mesh {
     char name[SWEEP_NAME_BYTES]; // "pipe-17-0.obj"
     struct strbuf text;

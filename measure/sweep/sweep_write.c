@@ -88,11 +88,32 @@ static vec3 turned(const struct sweep_writer *w, vec3 v) {
     return vec3_mul(sweep_apply(&w->turn, v), w->scale);
 }
 
+// A Radiance picture of random colours between 0.05 and 0.95.
+static const char *make_image(struct sweep_writer *w) {
+    struct sweep_scene *scene = w->scene;
+    struct sweep_mesh *image = &scene->meshes[scene->mesh_count];
+    const char *family = sweep_families[scene->family].name;
+    snprintf(image->name, sizeof image->name, "%s-%u-%u.hdr", family, scene->number, scene->mesh_count++);
+    strbuf_init(&image->text);
+    const uint32_t width = sweep_count(w, 2, 64), height = sweep_count(w, 2, 64);
+    strbuf_format(&image->text, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %u +X %u\n", height, width);
+    for (uint32_t i = 0; i < width * height; i++) {
+        const unsigned char texel[4] = {(unsigned char)sweep_count(w, 13, 243),
+                                        (unsigned char)sweep_count(w, 13, 243),
+                                        (unsigned char)sweep_count(w, 13, 243), 128};
+        strbuf_add(&image->text, texel, sizeof texel);
+    }
+    return image->name;
+}
+
 // `scale`: how much longer the body's own coordinates are than the writer's.
-static void put_paint(struct strbuf *out, const struct sweep_paint *p, double scale) {
+static void put_paint(struct sweep_writer *w, struct strbuf *out, const struct sweep_paint *p, double scale) {
     strbuf_format(out, "    material:\n      albedo: [%.17g, %.17g, %.17g, %.17g]\n", p->diffuse, p->specular,
                   p->reflection, p->refraction);
-    if (p->cell > 0) {
+    if (p->image) {
+        strbuf_format(out, "      diffuse_color: {image: {file: %s, repeat: %.17g}}\n", make_image(w),
+                      p->repeat);
+    } else if (p->cell > 0) {
         strbuf_format(out,
                       "      diffuse_color: {checker: {colors: [[%.17g, %.17g, %.17g], [%.17g, %.17g, "
                       "%.17g]], size: %.17g}}\n",
@@ -104,6 +125,8 @@ static void put_paint(struct strbuf *out, const struct sweep_paint *p, double sc
     }
     strbuf_format(out, "      specular_exponent: %.17g\n      refractive_index: %.17g\n", p->exponent,
                   p->index);
+    if (p->roughness > 0)
+        strbuf_format(out, "      roughness: %.17g\n", p->roughness);
 }
 
 // ---- materials
@@ -177,10 +200,31 @@ void sweep_sun(struct sweep_writer *w, vec3 travels, double intensity) {
     strbuf_format(&w->lights, "\n    intensity: %.17g\n", intensity);
 }
 
+void sweep_aperture(struct sweep_writer *w, double aperture, double focus) {
+    strbuf_format(&w->head, "  aperture: %.17g\n  focus: %.17g\n", aperture * w->scale, focus * w->scale);
+}
+
+void sweep_ambient(struct sweep_writer *w, double intensity, double occlusion) {
+    strbuf_format(&w->head, "ambient: {color: [0.9, 0.95, 1], intensity: %.17g, occlusion: %.17g}\n",
+                  intensity, occlusion * w->scale);
+}
+
+void sweep_ball_light(struct sweep_writer *w, vec3 position, double radius, double intensity) {
+    sweep_light(w, position, intensity);
+    strbuf_format(&w->lights, "    radius: %.17g\n", radius * w->scale);
+}
+
+void sweep_panel_light(struct sweep_writer *w, vec3 corner, double side, double intensity) {
+    sweep_put_vector(&w->lights, "  - rectangle: {corner", placed(w, corner));
+    sweep_put_vector(&w->lights, ", edge_u", turned(w, (vec3){side, 0, 0}));
+    sweep_put_vector(&w->lights, ", edge_v", turned(w, (vec3){0, 0, side}));
+    strbuf_format(&w->lights, "}\n    intensity: %.17g\n", intensity);
+}
+
 void sweep_sphere(struct sweep_writer *w, vec3 center, double radius, const struct sweep_paint *paint) {
     sweep_put_vector(&w->spheres, "  - center", placed(w, center));
     strbuf_format(&w->spheres, "\n    radius: %.17g\n", radius * w->scale);
-    put_paint(&w->spheres, paint, w->scale);
+    put_paint(w, &w->spheres, paint, w->scale);
 }
 
 void sweep_rectangle(struct sweep_writer *w, vec3 corner, vec3 u, vec3 v, const struct sweep_paint *paint) {
@@ -188,7 +232,7 @@ void sweep_rectangle(struct sweep_writer *w, vec3 corner, vec3 u, vec3 v, const 
     sweep_put_vector(&w->rectangles, "\n    edge_u", turned(w, u));
     sweep_put_vector(&w->rectangles, "\n    edge_v", turned(w, v));
     strbuf_char(&w->rectangles, '\n');
-    put_paint(&w->rectangles, paint, w->scale);
+    put_paint(w, &w->rectangles, paint, w->scale);
 }
 
 void sweep_close(struct sweep_writer *w) {
@@ -231,6 +275,6 @@ void sweep_mesh_end(struct sweep_writer *w, bool smooth, const struct sweep_pain
     }
     if (smooth)
         strbuf_cstr(&w->models, "    smooth: true\n");
-    put_paint(&w->models, paint, w->baked ? w->scale : 1);
+    put_paint(w, &w->models, paint, w->baked ? w->scale : 1);
     w->mesh = NULL;
 }

@@ -39,6 +39,8 @@ struct render_settings {
     uint32_t samples;       // per pixel, at least 1
     uint32_t first_sample;  // number of the first of them (view_sample_offset); pictures begin with 0
     uint32_t whole_samples; // of the picture that these samples are a part of; 0: they are all
+    double apart; // above 1: of a picture whose pixels lie so many pixels apart, each as small as they; else
+                  // 1 or 0
     uint32_t max_depth;
     double min_weight;
     vec3 background; // linear, times intensity

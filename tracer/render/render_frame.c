@@ -106,7 +106,7 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
     const struct flat_scene *flat = renderer->flat;
     const double scale = ldexp(1, flat->scale_exponent);
     const struct render_size whole = renderer_whole(settings);
-    const double aspect = (double)whole.width / whole.height;
+    const double aspect = (double)whole.width / whole.height, apart = fmax(settings->apart, 1);
     struct frame_block frame = {
         .light_count = flat->light_count,
         .min_weight = (float)settings->min_weight,
@@ -130,7 +130,7 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
         .instance_table = flat->instance_table,
         .instance_shift = flat->instance_shift,
         .coordinates_table = flat->coordinates_table,
-        .footprint = (float)(footprint_of(camera, scale) / whole.height / sqrt(samples_of(renderer))),
+        .footprint = (float)(footprint_of(camera, scale) / whole.height / sqrt(samples_of(renderer)) / apart),
         .projection = camera->projection,
         .lens_radius = (float)fmin(camera->lens_radius * scale, FLAT_LENGTH_MAX),
         .focus = (float)(camera->focus * scale),

@@ -132,19 +132,25 @@ enum render_result renderer_draw_paths(struct renderer_frame *run, struct dispat
     return result;
 }
 
+// Where a sample lies in its pixel, which is a part of the grid's where those lie apart.
+static void offset_of(const struct renderer *renderer, uint32_t number, float *a, float *b) {
+    const double apart = renderer->settings.apart;
+    double x, y;
+    view_sample_offset(number, &x, &y);
+    *a = (float)(apart > 1 ? 0.5 + (x - 0.5) / apart : x);
+    *b = (float)(apart > 1 ? 0.5 + (y - 0.5) / apart : y);
+}
+
 static enum render_result draw_sample(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
                                       uint32_t sample, uint32_t before, uint32_t listed) {
     struct renderer *renderer = run->renderer;
     const uint32_t number = renderer->settings.first_sample + sample;
-    double a, b;
-    view_sample_offset(number, &a, &b);
     struct dispatch_block block = {.tile_begin = tile_begin,
                                    .tile_count = tile_count,
                                    .sample_index = before,
                                    .first_sample = number,
-                                   .listed = listed,
-                                   .offset_x = (float)a,
-                                   .offset_y = (float)b};
+                                   .listed = listed};
+    offset_of(renderer, number, &block.offset_x, &block.offset_y);
     if (renderer->samples_at_once && !renderer_write_samples(renderer, sample, 1))
         return RENDER_FAILED;
     const enum render_result result = renderer_draw_paths(run, &block);
@@ -166,11 +172,8 @@ enum render_result renderer_draw_listed(struct renderer_frame *run, uint32_t til
 
 bool renderer_write_samples(struct renderer *renderer, uint32_t first, uint32_t count) {
     struct samples_block block;
-    for (uint32_t i = 0; i < SAMPLES_AT_ONCE; i++) {
-        double a, b;
-        view_sample_offset(renderer->settings.first_sample + first + (i < count ? i : 0), &a, &b);
-        block.offsets[i][0] = (float)a;
-        block.offsets[i][1] = (float)b;
-    }
+    for (uint32_t i = 0; i < SAMPLES_AT_ONCE; i++)
+        offset_of(renderer, renderer->settings.first_sample + first + (i < count ? i : 0),
+                  &block.offsets[i][0], &block.offsets[i][1]);
     return gpu_write(renderer->gpu, renderer->buffers[BINDING_SAMPLES], 0, &block, sizeof block);
 }

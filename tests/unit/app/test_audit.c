@@ -2,6 +2,7 @@
 #include "app/audit.h"
 #include "core/limits.h"
 #include "grammar/ir.h"
+#include "precision/share.h"
 #include "reference/reference.h"
 
 #include <math.h>
@@ -77,27 +78,27 @@ static void spoil(struct image *image, uint32_t x, uint32_t y, float by) {
 static void test_bound(void **state) {
     (void)state;
     for (uint32_t n = 1; n < 100000; n *= 7) {
-        assert_true(fabs(audit_bound(0, n, 0.025) - (1 - pow(0.025, 1.0 / n))) < 1e-12);
-        assert_true(audit_bound(n, n, 0.025) == 1);
-        assert_true(fabs(audit_floor(n, n, 0.01) - pow(0.01, 1.0 / n)) < 1e-12);
-        assert_true(audit_floor(0, n, 0.01) == 0);
+        assert_true(fabs(share_bound(0, n, 0.025) - (1 - pow(0.025, 1.0 / n))) < 1e-12);
+        assert_true(share_bound(n, n, 0.025) == 1);
+        assert_true(fabs(share_floor(n, n, 0.01) - pow(0.01, 1.0 / n)) < 1e-12);
+        assert_true(share_floor(0, n, 0.01) == 0);
     }
-    assert_true(fabs(audit_bound(9, 10, 0.025) - pow(0.975, 0.1)) < 1e-12);
-    assert_true(fabs(audit_floor(1, 10, 0.025) - (1 - pow(0.975, 0.1))) < 1e-12);
+    assert_true(fabs(share_bound(9, 10, 0.025) - pow(0.975, 0.1)) < 1e-12);
+    assert_true(fabs(share_floor(1, 10, 0.025) - (1 - pow(0.975, 0.1))) < 1e-12);
     // One of n: (1 - p)^n + n p (1 - p)^(n - 1) is 0.025.
-    const double p = audit_bound(1, 3000, 0.025);
+    const double p = share_bound(1, 3000, 0.025);
     assert_true(fabs(pow(1 - p, 3000) + 3000 * p * pow(1 - p, 2999) - 0.025) < 1e-9);
-    assert_true(audit_bound(0, 3700, 0.025) < 0.001 && audit_bound(1, 3700, 0.025) > 0.001);
+    assert_true(share_bound(0, 3700, 0.025) < 0.001 && share_bound(1, 3700, 0.025) > 0.001);
     for (uint32_t k = 1; k < 3000; k += k) {
-        assert_true(audit_bound(k, 3000, 0.025) > audit_bound(k - 1, 3000, 0.025));
-        assert_true(audit_floor(k, 3000, 0.025) > audit_floor(k - 1, 3000, 0.025));
-        assert_true(audit_bound(k, 3000, 0.025) > k / 3000.0 && audit_floor(k, 3000, 0.025) < k / 3000.0);
-        assert_true(audit_bound(k, 3000, 0.01) > audit_bound(k, 3000, 0.025));
-        assert_true(fabs(audit_floor(3000 - k, 3000, 0.01) - (1 - audit_bound(k, 3000, 0.01))) < 1e-12);
+        assert_true(share_bound(k, 3000, 0.025) > share_bound(k - 1, 3000, 0.025));
+        assert_true(share_floor(k, 3000, 0.025) > share_floor(k - 1, 3000, 0.025));
+        assert_true(share_bound(k, 3000, 0.025) > k / 3000.0 && share_floor(k, 3000, 0.025) < k / 3000.0);
+        assert_true(share_bound(k, 3000, 0.01) > share_bound(k, 3000, 0.025));
+        assert_true(fabs(share_floor(3000 - k, 3000, 0.01) - (1 - share_bound(k, 3000, 0.01))) < 1e-12);
     }
     // Of many: the normal distribution's 1.96 standard deviations, nearly.
-    assert_true(fabs(audit_bound(500000, 1000000, 0.025) - 0.50098) < 1e-5);
-    assert_true(fabs(audit_floor(500000, 1000000, 0.025) - 0.49902) < 1e-5);
+    assert_true(fabs(share_bound(500000, 1000000, 0.025) - 0.50098) < 1e-5);
+    assert_true(fabs(share_floor(500000, 1000000, 0.025) - 0.49902) < 1e-5);
 }
 
 // ---- pictures
