@@ -18,7 +18,7 @@
 struct ir_image;
 
 // Changes with every change of what the reference computes: cached pictures of other versions are not used.
-#define REFERENCE_VERSION 10
+#define REFERENCE_VERSION 11
 
 // How far paths are followed where the file's own limits do not apply.
 #define REFERENCE_MIN_WEIGHT 1e-6

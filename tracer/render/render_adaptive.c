@@ -184,13 +184,6 @@ static struct around look_around(const float *variance, int x, int y) {
     return around;
 }
 
-// Stands out: more than ALONE times the mean of its neighbours. Never where it is not finite.
-static bool is_alone(const float *variance, int x, int y) {
-    const float own = variance[slot_in_tile(x, y)];
-    const struct around around = look_around(variance, x, y);
-    return !isnan(own) && own * (float)(around.count - 1) > ALONE * (around.sum - own);
-}
-
 // What is bright and seldom hit shows in a few pixels of a tile, and could have in the others as well: the
 // mean over the tile of the variances that stand out alone.
 static float rare_of_tile(const float *variance) {
@@ -200,7 +193,9 @@ static float rare_of_tile(const float *variance) {
         const float own = variance[slot_in_tile(i % COLUMNS, i / COLUMNS)];
         if (isnan(own))
             continue;
-        sum += is_alone(variance, i % COLUMNS, i / COLUMNS) ? own : 0;
+        const struct around around = look_around(variance, i % COLUMNS, i / COLUMNS);
+        const bool alone = own * (float)(around.count - 1) > ALONE * (around.sum - own);
+        sum += alone ? own : 0;
         count++;
     }
     return count ? sum / (float)count : 0;
@@ -274,54 +269,10 @@ static void put_pixel(const struct band *band, uint32_t slot, float *rgb) {
     renderer->estimate.samples[pixel] = band->samples[slot];
 }
 
-// Sums over the tiles: of the variances, and of the squares of a tile's; and of what the first round found
-// that stood out alone. Pixels that ended with that round.
+// Sums over the tiles: of the variances, and of the squares of a tile's.
 struct total {
     double variance, squares;
-    double alone, alone_squares;
-    uint64_t ended;
 };
-
-// What a sample met once is as much as what none has met yet (Good 1953, "The population frequencies of
-// species"): a feature that a part p of a pixel shows, of which n samples should have met np <= 1, is missed
-// by the square of p times its difference in (1 - p)^n of such pixels, and met once, with a variance of the
-// square of the nth part of that, in np (1 - p)^(n - 1).
-// One of the groups differs, and the others agree: the sum of the squares of these is a 16th of that of all.
-static bool is_met_once(const float *shown) {
-    float least = INFINITY, all = 0;
-    for (int without = -1; without < GROUPS; without++) {
-        const float count = without < 0 ? GROUPS : GROUPS - 1;
-        float sum = 0;
-        for (int k = 0; k < 3; k++) {
-            float mean = 0;
-            for (int group = 0; group < GROUPS; group++)
-                mean += group == without ? 0 : shown[3 * group + k] / count;
-            for (int group = 0; group < GROUPS; group++)
-                sum += group == without ? 0 : (shown[3 * group + k] - mean) * (shown[3 * group + k] - mean);
-        }
-        if (without < 0)
-            all = sum;
-        else
-            least = fminf(least, sum);
-    }
-    return 16 * least <= all;
-}
-
-// After the first round, of which the list has all pixels.
-static void note_alone(const struct band *band, struct total *total) {
-    for (uint32_t i = 0; i < band->count; i++) {
-        const uint32_t slot = band->list[i];
-        const float *variance = band->variance + slot / TILE_PIXELS * TILE_PIXELS;
-        uint32_t x, y;
-        if (!renderer_pixel(band->run->renderer, band->begin, slot, &x, &y) ||
-            !is_alone(variance, (int)(x % TILE_SIDE), (int)(y % TILE_SIDE)) ||
-            !is_met_once(band->shown + GROUPS * 3 * (size_t)i))
-            continue;
-        const double v = (double)band->variance[slot];
-        total->alone += v;
-        total->alone_squares += v * v;
-    }
-}
 
 static void end_band(const struct band *band, float *rgb, struct total *total) {
     struct renderer *renderer = band->run->renderer;
@@ -357,12 +308,9 @@ static enum render_result draw_band(struct band *band, float *rgb, struct total 
             return result;
         estimate(band);
         parallel_for(band->tiles, TILES_A_PIECE, judge_tiles, band);
-        const uint32_t before = band->count;
-        if (samples == 0)
-            note_alone(band, total);
+        band->ended += band->count;
         shorten_list(band);
-        band->ended += before - band->count;
-        total->ended += samples == 0 ? before - band->count : 0;
+        band->ended -= band->count;
         band->run->steps_done = band->ended;
     }
     band->ended += band->count;
@@ -383,22 +331,19 @@ static bool make_estimate(struct renderer *renderer) {
 }
 
 // Neither the errors nor their estimates are independent within a tile, where edges go on; of a tile the
-// square of the error varies by twice its square, and an estimate from four groups by two thirds of it. What
-// no sample has met is in pixels that ended with the first round; how often it was met once varies as a
-// number of rare events.
+// square of the error varies by twice its square, and an estimate from four groups by two thirds of it.
 static void conclude(struct renderer *renderer, const struct total *total) {
     const double all = (double)renderer->settings.width * renderer->settings.height;
     const double pixels = fmax(all - renderer->estimate.unknown, 1);
     const double spread = SURE * sqrt((2 + 2.0 / (GROUPS - 1)) * total->squares);
-    const double unseen = (total->alone + SURE * sqrt(total->alone_squares)) * (double)total->ended / all;
     renderer->estimate.mean = sqrt(total->variance / pixels);
-    renderer->estimate.most = sqrt((total->variance + spread + unseen) / pixels);
+    renderer->estimate.most = sqrt((total->variance + spread) / pixels);
 }
 
 enum render_result renderer_draw_adaptive(struct renderer_frame *run, float *rgb) {
     struct renderer *renderer = run->renderer;
     struct band band = {.run = run};
-    struct total total = {0};
+    struct total total = {0, 0};
     run->statistics->all_samples = 0;
     renderer->estimate.unknown = 0;
     run->steps = (uint64_t)renderer->settings.width * renderer->settings.height;
