@@ -111,6 +111,8 @@ static bool remove_at(int folder, const char *name, int depth) {
     if (unlinkat(folder, name, 0) == 0)
         return true;
     bool more = (errno == EISDIR || errno == EPERM) && depth <= DEPTH_MAX;
+    if (more && unlinkat(folder, name, AT_REMOVEDIR) == 0) // an empty one need not be opened
+        return true;
     while (more) {
         int inside = openat(folder, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
         if (inside < 0 && errno == EINTR)

@@ -56,8 +56,8 @@ EXPORTED int openat64(int folder, const char *path, int flags, ...) {
     va_start(args, flags);
     mode_t mode = flags & (O_CREAT | O_TMPFILE) ? va_arg(args, mode_t) : 0;
     va_end(args);
-    return STRIKES(flags & O_CREAT ? "open to write" : "open") ? -1
-                                                               : NEXT(openat64)(folder, path, flags, mode);
+    const char *name = flags & O_DIRECTORY ? "opendir" : flags & O_CREAT ? "open to write" : "open";
+    return STRIKES(name) ? -1 : NEXT(openat64)(folder, path, flags, mode);
 }
 
 // openat2, which has no function in the library; the others that programs make this way are not of files.
@@ -71,7 +71,8 @@ EXPORTED long syscall(long number, ...) {
     for (int i = 0; i < 6; i++)
         a[i] = va_arg(args, long);
     va_end(args);
-    if (number == CALL_OPENAT2 && STRIKES("open"))
+    // Its third argument begins with the flags.
+    if (number == CALL_OPENAT2 && STRIKES(*(const uint64_t *)a[2] & O_DIRECTORY ? "opendir" : "open"))
         return -1;
     return NEXT(syscall)(number, a[0], a[1], a[2], a[3], a[4], a[5]);
 }
