@@ -3,9 +3,6 @@
 
 #include <string.h>
 
-const char *const farm_engines[] = {
-    [FARM_SLURM] = "slurm", [FARM_PARALLEL] = "parallel", [FARM_K8S] = "k8s", NULL};
-
 const char *farm_script_name(enum farm_engine engine) {
     return engine == FARM_K8S ? "job.yaml" : "job.sh";
 }

@@ -1,6 +1,5 @@
 // The plan as a file of its folder: lines of a word and its value, as the head of a part has them.
 #include "app/frames/frame_name.h"
-#include "app/parts/part_file.h"
 #include "cli/farm/farm.h"
 #include "files/stream.h"
 
@@ -10,7 +9,6 @@
 #include <sys/stat.h>
 
 #define PLAN_NAME "farm.plan"
-#define PLAN_HEAD "glint farm 1\n"
 
 enum {
     PLAN_BYTES = 65536, // a plan is shorter
@@ -23,7 +21,7 @@ static const char *in_folder(struct cli *cli, const char *folder, const char *na
 // ---- writing
 
 static void write_plan(const struct farm_plan *plan, struct strbuf *out) {
-    strbuf_format(out, PLAN_HEAD "engine %s\n", farm_engines[plan->engine]);
+    strbuf_format(out, FARM_PLAN_HEAD "engine %s\n", farm_engines[plan->engine]);
     if (plan->has_frames)
         strbuf_format(out, "frames %d %d %d\n", (int)plan->first, (int)plan->last, (int)plan->step);
     strbuf_format(out, "tiles %u\nchunk %u\nroot %s\nfolder %s\noutput %s\n", plan->tiles, plan->chunk,
@@ -68,45 +66,6 @@ int farm_save(struct cli *cli, const struct farm_plan *plan, str script) {
 
 // ---- reading
 
-static int engine_of(const char *name) {
-    for (int i = 0; name && farm_engines[i]; i++)
-        if (strcmp(farm_engines[i], name) == 0)
-            return i;
-    return -1;
-}
-
-static bool is_name(const char *pattern, const struct farm_plan *plan) {
-    struct strbuf name;
-    strbuf_init(&name);
-    const bool good = pattern && *pattern && (!plan->has_frames || frame_name(pattern, plan->first, &name));
-    strbuf_finish(&name);
-    return good;
-}
-
-static bool read_plan(char *text, struct farm_plan *plan) {
-    uint32_t frames[3] = {0, 0, 1};
-    if (strncmp(text, PLAN_HEAD, strlen(PLAN_HEAD)) != 0)
-        return false;
-    text += strlen(PLAN_HEAD);
-    const int engine = engine_of(part_take_line(&text, "engine"));
-    plan->has_frames = part_take_numbers(&text, "frames", frames, 3);
-    if (engine < 0 || !part_take_numbers(&text, "tiles", &plan->tiles, 1) ||
-        !part_take_numbers(&text, "chunk", &plan->chunk, 1) || frames[1] < frames[0] || frames[2] == 0 ||
-        plan->tiles == 0 || plan->chunk == 0)
-        return false;
-    plan->engine = (enum farm_engine)engine;
-    plan->first = (int32_t)frames[0];
-    plan->last = (int32_t)frames[1];
-    plan->step = (int32_t)frames[2];
-    plan->frames = (frames[1] - frames[0]) / frames[2] + 1;
-    plan->root = part_take_line(&text, "root");
-    plan->folder = plan->root ? part_take_line(&text, "folder") : NULL;
-    plan->output = plan->folder ? part_take_line(&text, "output") : NULL;
-    plan->part = plan->output ? part_take_line(&text, "part") : NULL;
-    return is_name(plan->output, plan) && (plan->tiles == 1) == (plan->part == NULL) &&
-           (!plan->part || is_name(plan->part, plan)) && *text == '\0';
-}
-
 int farm_load(struct cli *cli, const char *folder, struct farm_plan *plan) {
     const char *path = in_folder(cli, folder, PLAN_NAME);
     struct strbuf file;
@@ -121,16 +80,10 @@ int farm_load(struct cli *cli, const char *folder, struct farm_plan *plan) {
                   "cannot be read: %s", strerror(error));
         return CLI_FILE;
     }
-    if (!read_plan(text, plan)) {
+    if (!farm_plan_read(text, plan)) {
         cli_error(cli, DIAG_FILE_UNREADABLE, path, NULL, "this is not a plan that 'glint farm' has written");
         return CLI_FILE;
     }
-    const uint64_t chunks = (plan->frames + (uint64_t)plan->chunk - 1) / plan->chunk;
-    if (chunks * plan->tiles > INT32_MAX) {
-        cli_error(cli, DIAG_FILE_UNREADABLE, path, NULL, "this is not a plan that 'glint farm' has written");
-        return CLI_FILE;
-    }
-    plan->tasks = (uint32_t)chunks * plan->tiles;
     return CLI_OK;
 }
 

@@ -5,8 +5,6 @@
 . "$(dirname -- "$0")/lib.sh"
 command -v nm >/dev/null || exit 77
 
-rooms=$(sed -n 's/^\([a-z][^:]*\):.*/\1/p' cmake/rooms.txt)
-
 # A room that may include a single header of another depends on that room.
 room_needs() {
     awk '/^[a-z]/ {
@@ -18,16 +16,6 @@ room_needs() {
             print room, other, $i
         }
     }' cmake/rooms.txt
-}
-
-# The objects that were made from the files of rooms.
-objects() {
-    for room in $rooms; do
-        for object in "$1/$room"/CMakeFiles/*.dir/*.c.o; do
-            source=${object##*/}
-            [ -f "$object" ] && [ -f "$room/${source%.o}" ] && printf '%s\n' "$object"
-        done
-    done
 }
 
 # From what nm says of them: which file uses what of which.

@@ -33,3 +33,13 @@ code() {
     # shellcheck disable=SC2086 -- our paths hold no blanks
     awk -f "$LINT/code.awk" $files
 }
+
+# The objects of the build in this folder that were made from the files of rooms.
+objects() {
+    for room in $(sed -n 's/^\([a-z][^:]*\):.*/\1/p' cmake/rooms.txt); do
+        for object in "$1/$room"/CMakeFiles/*.dir/*.c.o; do
+            source=${object##*/}
+            [ -f "$object" ] && [ -f "$room/${source%.o}" ] && printf '%s\n' "$object"
+        done
+    done
+}

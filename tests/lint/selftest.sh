@@ -161,6 +161,28 @@ if command -v "${CC:-cc}" >/dev/null; then
 fi
 
 fresh
+plant cmake/rooms.txt 'core:' 'tests/fuzz:'
+if command -v "${CC:-cc}" >/dev/null; then
+    plant tests/lint/readers.txt '# none'
+    built tests/fuzz/fuzz_a.c 'int reach(void); int a(void) { return reach(); }'
+    mkdir -p ../build/tests/fuzz/CMakeFiles/replay_a.dir
+    mv ../build/tests/fuzz/CMakeFiles/glint.dir/fuzz_a.c.o ../build/tests/fuzz/CMakeFiles/replay_a.dir
+    built core/a.c 'int files_read(void); int reach(void) { return files_read(); }'
+    passes readers ../build
+    built core/b.c 'int files_read(void), reach(void); int b(void) { return files_read() + reach(); }'
+    finds readers 'core/b.c:1: reads bytes (files_read)' ../build
+    plant tests/lint/readers.txt 'core/b.c reach'
+    passes readers ../build
+    plant tests/lint/readers.txt 'core/b.c -'
+    finds readers 'readers.txt:1: has neither' ../build
+    plant tests/lint/readers.txt 'core/b.c other'
+    finds readers 'core/b.c does not use other' ../build
+    plant tests/lint/readers.txt 'core/b.c - why' 'core/a.c - why'
+    finds readers 'core/a.c needs no line: fuzzing reaches it' ../build
+    rm -rf ../build
+fi
+
+fresh
 rooms
 plant core/a.c '// strcpy(a, b); exit(1);' '/* atoi(x)' '   printf("x"); */' 'f("strtok(a)", ascii_atoi(3), s->open(2));' 'snprintf(a, 3, "\"");'
 plant core/arena.c 'if (setjmp(guard->jump) == 0)' '        longjmp(guard->jump, 1);' '        abort();'
