@@ -11,6 +11,7 @@ enum {
     PROBE_SAMPLES = 4,    // at most
     SETTLED = 8,          // samples from which on errors tell of more
     DEEPER_MOST = 6,      // times that paths are made longer
+    DEPTH_MOST = 64,      // that a scene may ask for
     STEP_FEW = 2,         // times the samples, while they are few
     STEP_MOST = 4,
 };
@@ -139,7 +140,8 @@ static struct setting probe_of(const struct setting *setting) {
 
 static struct setting deeper(const struct setting *at) {
     struct setting s = *at;
-    s.max_depth = at->max_depth ? 2 * at->max_depth : 2;
+    const uint32_t twice = at->max_depth ? 2 * at->max_depth : 2;
+    s.max_depth = twice < DEPTH_MOST ? twice : DEPTH_MOST;
     s.min_weight = at->min_weight / DEEPER_WEIGHT;
     return s;
 }

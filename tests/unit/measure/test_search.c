@@ -207,6 +207,23 @@ static void longer_paths_where_the_file_cuts(void **state) {
         assert_true(f.rows[i].setting.max_depth <= 8);
 }
 
+// A scene may not ask for more than 64: no row does.
+static void paths_grow_no_longer_than_a_scene_may_ask_for(void **state) {
+    (void)state;
+    const struct world w = {.noise = 0.02, .depth = 1e12, .deepest = 100};
+    struct plan_search_input input = input_of(&w);
+    struct found f;
+    uint32_t deepest = 0;
+    input.base.max_depth = 12;
+    input.deepest = 12;
+    input.cut = true;
+    input.error_most = 1e-6;
+    run(&w, &input, &f);
+    for (uint32_t i = 0; i < f.count; i++)
+        deepest = f.rows[i].setting.max_depth > deepest ? f.rows[i].setting.max_depth : deepest;
+    assert_int_equal(deepest, 64);
+}
+
 static void smaller_pictures_only_where_allowed(void **state) {
     (void)state;
     const struct world w = {.noise = 0.01, .darkness = 1, .deepest = 1};
@@ -290,6 +307,7 @@ int main(void) {
         cmocka_unit_test(probes_are_small_where_paths_are_long),
         cmocka_unit_test(hopeless_bounds_are_given_up),
         cmocka_unit_test(longer_paths_where_the_file_cuts),
+        cmocka_unit_test(paths_grow_no_longer_than_a_scene_may_ask_for),
         cmocka_unit_test(smaller_pictures_only_where_allowed),
         cmocka_unit_test(as_many_samples_as_fit),
         cmocka_unit_test(shorter_paths_where_one_sample_takes_too_long),
