@@ -170,7 +170,6 @@ static enum precision_status choose(struct session *session, struct flat_input *
                                           .height = (uint32_t)session->image->height,
                                           .samples = samples_of(session),
                                           .gpu = gpu,
-                                          .counts = wish.counts,
                                           .reference = wish.reference,
                                           .ready = wish.ready,
                                           .ready_context = wish.ready_context};

@@ -11,9 +11,8 @@
 // The input of flattening for a session seen in this view; `view` must outlive it.
 struct flat_input precision_input(struct session *session, const struct view *view);
 
-// What a trial leaves, waits for and counts: members of struct precision_trial.
+// What a trial leaves and waits for: members of struct precision_trial.
 struct precision_wish {
-    bool counts;
     struct reference **reference;
     bool (*ready)(void *context);
     void *ready_context;

@@ -29,8 +29,7 @@ static enum shot_status flatten_shot(struct opening *opening, struct precision_g
     struct flat_input input = precision_input(s, &shot->view);
     input.keep = shot->wish.keep;
     input.sharing = gpu_info(shot->gpu)->has_double && !shot->wish.copies ? FLAT_CHEAPER : FLAT_COPIES;
-    const struct precision_wish wish = {.counts = shot->wish.counts,
-                                        .reference = shot->wish.audits ? &shot->reference : NULL,
+    const struct precision_wish wish = {.reference = shot->wish.audits ? &shot->reference : NULL,
                                         .ready = shot->wish.ready ? ask : NULL,
                                         .ready_context = opening,
                                         .choice = shot->wish.choice};
@@ -211,6 +210,23 @@ void shot_report_faults(struct shot *shot, const struct render_fault faults[REND
 enum shot_status shot_take(struct shot *shot, struct image *image, const struct render_progress *progress,
                            struct render_statistics *statistics) {
     return shot_take_until(shot, image, progress, NULL, statistics);
+}
+
+enum shot_status shot_count(struct shot *shot, const struct render_progress *progress,
+                            struct render_statistics *statistics) {
+    struct render_settings settings = shot->settings;
+    if (!CLI_HAS_DEVICES)
+        return SHOT_DEVICE;
+    settings.samples = statistics->samples;
+    if (settings.samples != shot->settings.samples &&
+        !renderer_change(shot->renderer, &shot->flat, &settings))
+        return SHOT_DEVICE;
+    const enum render_result result =
+        renderer_count(shot->renderer, &shot->view.camera, progress, &statistics->rays);
+    if (settings.samples != shot->settings.samples &&
+        !renderer_change(shot->renderer, &shot->flat, &shot->settings))
+        return SHOT_DEVICE;
+    return result == RENDER_DONE ? SHOT_OK : result == RENDER_CANCELLED ? SHOT_CANCELLED : SHOT_DEVICE;
 }
 
 static enum shot_status take(struct shot *shot, struct image *image, const struct render_progress *progress,

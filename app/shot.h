@@ -27,7 +27,7 @@ struct shot_region {
 
 struct shot_wish {
     struct shot_region region; // that is rendered; width 0: all of the picture
-    bool counts;               // frames count their rays: render_statistics has them
+    bool counts;               // after each frame its rays are counted: render_statistics has them
     bool audits;               // the reference that chose the precision is kept for app/audit.h
     bool copies;               // each model has triangles of its own, even where instances are cheaper
     // For a session that is not settled: called once all is done that needs no pixels of the background, and
@@ -70,7 +70,12 @@ enum shot_status shot_turn(struct shot *shot, uint32_t camera);
 enum shot_status shot_take(struct shot *shot, struct image *image, const struct render_progress *progress,
                            struct render_statistics *statistics);
 
-// The same, but faults stay in the statistics, where their pixels count from the first of the shot's region.
+// Counts the rays of the last frame, by tracing it once more: its statistics get them.
+enum shot_status shot_count(struct shot *shot, const struct render_progress *progress,
+                            struct render_statistics *statistics);
+
+// The same as shot_take, but faults stay in the statistics, where their pixels count from the first of the
+// shot's region.
 enum shot_status shot_take_silently(struct shot *shot, struct image *image,
                                     const struct render_progress *progress,
                                     struct render_statistics *statistics);

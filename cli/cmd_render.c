@@ -9,6 +9,7 @@
 #include "grammar/ir.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -148,10 +149,23 @@ static int render_at_once(struct render_job *job, uint32_t camera, uint32_t came
     return status;
 }
 
+// After the picture was written: it is not waited for.
+static int count_rays(struct render_job *job) {
+    const double start = clock_seconds();
+    if (!job->cli->options.stats || job->shot.wish.counts)
+        return CLI_OK;
+    const enum shot_status status = shot_count(&job->shot, NULL, &job->stats.last);
+    job->stats.count_seconds = clock_seconds() - start;
+    timeline_add(job->timeline, "count", STR(""), start);
+    return status == SHOT_OK ? CLI_OK : render_failed(job, status);
+}
+
 // One camera of those that are left: frames, picture, statistics. The shot is open and uses it.
 static int render_camera(struct render_job *job, uint32_t camera, uint32_t cameras) {
     progress_begin(&job->progress, job->cli->options.quiet);
     int status = job->in_bands ? render_in_bands(job, camera) : render_at_once(job, camera, cameras);
+    if (status == CLI_OK)
+        status = count_rays(job);
     if (status == CLI_OK && job->cli->options.stats)
         status = report_stats(job);
     if (status == CLI_OK)
@@ -185,7 +199,7 @@ static int render_by_device(struct render_job *job, uint32_t first, uint32_t end
     if (status != CLI_OK)
         return status;
     const struct shot_wish wish = {.region = render_first_region(job),
-                                   .counts = job->cli->options.stats != CLI_STATS_NONE,
+                                   .counts = job->cli->options.stats && (job->in_bands || job->is_part),
                                    .audits = render_wants_audit(&job->cli->options),
                                    .ready = job->is_apart ? is_ready : NULL,
                                    .ready_context = job};
@@ -298,6 +312,19 @@ static bool noise_fits(struct render_job *job) {
     return false;
 }
 
+// Steps between black and white of the output that is rounded most; 0: none is.
+static double coarsest_levels(const struct render_job *job) {
+    double levels = 0;
+    for (uint32_t i = 0; i < job->output_count; i++) {
+        const enum image_format format = job->outputs[i].format;
+        const double own = image_format_info(format)->is_linear
+                               ? 0
+                               : ldexp(1, (int)render_coding(&job->cli->options, format).bits) - 1;
+        levels = own > 0 && (own < levels || !(levels > 0)) ? own : levels;
+    }
+    return levels;
+}
+
 int render_whole(struct render_job *job) {
     struct cli *cli = job->cli;
     interrupt_catch();
@@ -306,7 +333,8 @@ int render_whole(struct render_job *job) {
     struct asset_store *store = asset_store_create();
     if (cli->options.stats)
         job->timeline = ARENA_NEW(&cli->arena, struct timeline);
-    int status = cli_has_study(cli) ? cli_choose_settings(cli, store, &job->gpu) : CLI_OK;
+    int status =
+        cli_has_study(cli) ? cli_choose_settings(cli, coarsest_levels(job), store, &job->gpu) : CLI_OK;
     if (status == CLI_OK)
         status = run_job(job, store);
     shot_close(&job->shot);

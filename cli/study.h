@@ -19,8 +19,8 @@ bool cli_study_options(struct cli *cli, struct tradeoff_options *options);
 int cli_study(struct cli *cli, struct session *session, const struct tradeoff_options *options,
               struct gpu **gpu, struct tradeoff *study);
 // render: studies the scene, and adds the chosen settings to the command line's --set options. CLI_SCENE with
-// an error printed if nothing fits. *gpu, NULL before, becomes the device if it was opened; it is the
-// caller's.
-int cli_choose_settings(struct cli *cli, struct asset_store *store, struct gpu **gpu);
+// an error printed if nothing fits. `levels`: steps of the format that is written, between black and white;
+// 0: its values are not rounded. *gpu, NULL before, becomes the device if it was opened; it is the caller's.
+int cli_choose_settings(struct cli *cli, double levels, struct asset_store *store, struct gpu **gpu);
 
 #endif

@@ -116,7 +116,6 @@ static struct render_settings device_settings(const struct small *small) {
     settings.whole_samples = small->all_samples;
     settings.apart = small->apart;
     settings.features |= small->trial->features;
-    settings.counts = small->trial->counts;
     settings.background_later = small->trial->ready != NULL;
     settings.timeline = input->timeline;
     return settings;

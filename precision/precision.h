@@ -51,7 +51,6 @@ struct precision_trial {
     uint32_t samples;               // of its pixels, the least where they differ; 0: 1
     struct gpu *gpu;                // NULL: none
     uint64_t features;              // compiled in beside what the scene wants
-    bool counts;                    // draw with the kernel that counts, which is the one used afterwards
     // Where the reference is left that drew on a device's behalf, to be used for the whole picture: it sees
     // input->view, and the caller destroys it. NULL stays there where there was none. May be NULL.
     struct reference **reference;

@@ -91,8 +91,7 @@ static enum live_state state_of(enum shot_status status) {
 // place.
 static enum live_state open_whole(struct live *live, struct session *session, uint32_t camera) {
     const bool asks = session->scene->trace.precision == IR_PRECISION_AUTO;
-    const struct shot_wish wish = {
-        .counts = live->wish.counts, .keep = live->keep, .choice = asks ? &live->choice : NULL};
+    const struct shot_wish wish = {.keep = live->keep, .choice = asks ? &live->choice : NULL};
     struct shot old = live->shot;
     live->change.is_whole = true;
     live->change.precision_asked = asks;

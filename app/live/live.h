@@ -20,7 +20,6 @@
 struct live_wish {
     struct session_options session; // what it points to outlives the live
     str camera;                     // as session_camera has it
-    bool counts;                    // pictures count their rays
     bool polls;                     // files are looked at from time to time, without inotify
     // Of many pictures, each has the bytes that a program that has just started would give it: the origin is
     // chosen for each, and the precision, unless live->follows. No file is watched.

@@ -80,6 +80,7 @@ void stats_text(const struct stats *s, struct strbuf *out) {
         seconds(out, " of it, device", s->median_device_seconds);
     }
     seconds(out, "encode", s->encode_seconds);
+    seconds(out, "count rays", s->count_seconds);
     const struct render_rays *r = &s->last.rays;
     strbuf_cstr(out, "rays\n");
     count(out, "primary", r->primary);
@@ -127,6 +128,7 @@ static void put_times(struct json_writer *w, const struct stats *s) {
     json_write_real(w, "median_frame_device_s", s->median_device_seconds);
     json_write_real(w, "last_frame_device_s", s->last.device_seconds);
     json_write_real(w, "encode_s", s->encode_seconds);
+    json_write_real(w, "count_s", s->count_seconds);
     json_write_integer(w, "frames", (uint64_t)s->frames);
     json_close_object(w);
 }

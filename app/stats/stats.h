@@ -13,7 +13,8 @@ struct stats {
     double read_seconds, assets_seconds, device_seconds;   // device: opening it
     double flatten_seconds, build_seconds, upload_seconds; // build: the trees, a part of flatten
     double first_frame_seconds, encode_seconds;            // first: compiling included
-    double median_device_seconds;                          // of the frames, by the device's own clock
+    double count_seconds; // of tracing the last frame once more to count its rays; 0: while it was made
+    double median_device_seconds; // of the frames, by the device's own clock
     double median_frame_seconds, least_frame_seconds, most_frame_seconds;
     int32_t frames;
     struct render_statistics last;

@@ -96,11 +96,10 @@ static int end(struct viewing *v, enum viewer_status status, struct live *live, 
 static int run(struct viewing *v, struct window *window, struct gpu *gpu) {
     struct cli *cli = v->cli;
     const str scene = str_from(cli->operands[0]);
-    struct viewer_wish wish = {.live = {.session = cli_session_options(cli, cli->operands[0]),
-                                        .camera = cli->options.camera,
-                                        .counts = true},
-                               .name = cli->operands[0],
-                               .is_xml = str_ends_with_nocase(scene, ".xml")};
+    struct viewer_wish wish = {
+        .live = {.session = cli_session_options(cli, cli->operands[0]), .camera = cli->options.camera},
+        .name = cli->operands[0],
+        .is_xml = str_ends_with_nocase(scene, ".xml")};
     const struct viewer_host host = {v, say, loaded, write_picture, is_over};
     struct live live;
     wish.live.session.lint = LINT_CHEAP;

@@ -10,7 +10,8 @@ static int no_device(struct cli *cli) {
     return status;
 }
 
-int cli_choose_settings(struct cli *cli, struct asset_store *store, struct gpu **gpu) {
+int cli_choose_settings(struct cli *cli, double levels, struct asset_store *store, struct gpu **gpu) {
+    (void)levels;
     (void)store;
     (void)gpu;
     return no_device(cli);

@@ -133,6 +133,7 @@ static void study_key(const struct session *session, const struct view *view, co
     hash128_number(&h, options->threshold);
     hash128_number(&h, options->ppd);
     hash128_whole(&h, options->allow_resolution);
+    hash128_number(&h, options->levels);
     hash128_text(&h, str_from(info->name));
     hash128_text(&h, str_from(info->driver));
     hash128_text(&h, STR(GLINT_VERSION));
@@ -186,12 +187,38 @@ static void tell_search(const struct cli *cli, const struct tradeoff *study) {
     strbuf_finish(&text);
 }
 
+// What would keep the bound, or why nothing does; false: that is not known.
+static bool put_verdict(const struct tradeoff *study, char *out, size_t capacity) {
+    const struct search_verdict *v = &study->verdict;
+    const struct metric_info *metric = &metric_infos[study->options.metric];
+    const double value = metric->higher_is_better ? -v->value : v->value;
+    if (v->kind == SEARCH_SAMPLES)
+        snprintf(out, capacity, "about %.3g samples would keep it%s: %.3g s by the clock of the device",
+                 v->samples, v->samples > SEARCH_SAMPLES_MOST ? ", more than a picture may have" : "",
+                 v->seconds);
+    else if (v->kind == SEARCH_FORMAT)
+        snprintf(
+            out, capacity,
+            "rounding to %.0f steps alone has %s %.3g: write a .pfm or an .exr, or a .png with --depth 16",
+            study->options.levels, metric->name, value);
+    else if (v->kind == SEARCH_REMAINS)
+        snprintf(out, capacity, "%s %.3g remains, however many samples there are", metric->name, value);
+    return v->kind != SEARCH_UNKNOWN;
+}
+
 static void tell_nothing_fits(struct cli *cli, const struct tradeoff *study) {
-    cli_error(cli, DIAG_NOTHING_FITS, cli->operands[0],
+    char verdict[200];
+    const char *help =
+        put_verdict(study, verdict, sizeof verdict) ? verdict
+        : study->cut_short
+            ? "the time ended the search: with more, by --budget or --time, others may be found"
+            : "'glint tradeoff' tries more settings, and shows all of them";
+    cli_error(cli, DIAG_NOTHING_FITS, cli->operands[0], help,
               study->cut_short
-                  ? "the time ended the search: with more, by --budget or --time, others may be found"
-                  : "'glint tradeoff' tries more settings, and shows all of them",
-              "no settings that were tried stay within the bounds of --max-error and --max-time");
+                  ? "the time for the search ended before any settings stayed within the bounds of "
+                    "--max-error and --max-time"
+                  : "no settings that were tried stay within the bounds of --max-error and "
+                    "--max-time");
 }
 
 static int take_choice(struct cli *cli, const struct tradeoff *study) {
@@ -229,7 +256,7 @@ static int study_session(struct cli *cli, struct session *session, const struct 
     return status;
 }
 
-int cli_choose_settings(struct cli *cli, struct asset_store *store, struct gpu **gpu) {
+int cli_choose_settings(struct cli *cli, double levels, struct asset_store *store, struct gpu **gpu) {
     struct tradeoff_options options;
     struct session session;
     if (!cli_study_options(cli, &options))
@@ -238,6 +265,7 @@ int cli_choose_settings(struct cli *cli, struct asset_store *store, struct gpu *
         return cli_usage(cli, cli->options.measure.max_error_arg,
                          "--max-error and --max-time work for one camera, on a device");
     options.search = true;
+    options.levels = levels;
     // The picture needs the rest of the time.
     if (cli->options.measure.time_s > 0)
         options.end = cli->begun + SEARCH_TIME_SHARE * cli->options.measure.time_s;

@@ -18,26 +18,34 @@ static struct plan_search_input plan_input_of(const struct measuring *s) {
                                       .deepest = s->search.deepest,
                                       .bounces = tradeoff_bounces(s),
                                       .cut = s->search.is_cut,
-                                      .floor = s->search.floor,
                                       .allow_resolution = options->allow_resolution};
 }
 
 // Rows until the search is over, or the time for it.
 static enum tradeoff_status run_rows(struct measuring *s) {
-    struct plan_search_input input = plan_input_of(s);
+    const struct plan_search_input input = plan_input_of(s);
     struct row next;
     while (plan_search_next(&input, s->out->rows, s->out->count, &next)) {
         struct row *row = tradeoff_add_row(s->out, &next);
         if (!row)
             return TRADEOFF_MEMORY;
         const enum tradeoff_status status = search_row(s, row);
-        input.floor = s->search.floor;
         if (status != TRADEOFF_DONE) {
             tradeoff_drop_row(s->out);
             return status;
         }
     }
     return TRADEOFF_DONE;
+}
+
+// Probes told what to draw, and are no pictures.
+static void drop_probes(struct tradeoff *t) {
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < t->count; i++)
+        if (t->rows[i].setting.samples != SEARCH_PROBE)
+            t->rows[kept++] = t->rows[i];
+    t->tried = t->count;
+    t->count = kept;
 }
 
 enum tradeoff_status tradeoff_search_rows(struct measuring *s) {
@@ -53,6 +61,10 @@ enum tradeoff_status tradeoff_search_rows(struct measuring *s) {
         s->out->cut_short = true;
         status = TRADEOFF_DONE;
     }
+    const struct plan_search_input input = plan_input_of(s);
+    if (!isnan(input.error_most))
+        s->out->verdict = plan_search_verdict(&input, s->out->rows, s->out->count);
+    drop_probes(s->out);
     return status == TRADEOFF_DONE && !plan_order_times(s->out->rows, s->out->count) ? TRADEOFF_MEMORY
                                                                                      : status;
 }

@@ -172,7 +172,7 @@ static double slope_of(const struct tradeoff *t) {
 
 static enum tradeoff_status choose(struct tradeoff *t) {
     const enum metric metric = t->options.metric;
-    struct choice_row *choices = heap_array(t->count, sizeof *choices);
+    struct choice_row *choices = heap_array(t->count ? t->count : 1, sizeof *choices);
     if (!choices)
         return TRADEOFF_MEMORY;
     for (uint32_t i = 0; i < t->count; i++) {

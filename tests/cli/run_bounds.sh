@@ -36,6 +36,21 @@ if ! "$glint" render "$source/scenes/elements/minimal.glint.yaml" --size 8x8 -o 
     echo "skip: no Vulkan device"
     exit $failed
 fi
+# Samples go on beyond those of the file, which are 64 or fewer.
+sampled() {
+    "$glint" render "$source/scenes/elements/lens.glint.yaml" --size 40x30 --max-error mae=0.004 -o lens.png 2>lens.err &&
+        samples=$(sed -n 's/^ *options .*image\.samples=\([0-9]*\).*/\1/p' lens.err) && [ "${samples:-0}" -gt 64 ]
+}
+expect "samples go on until the bound is kept" 0 "" "" sampled
+
+# Rays are counted apart, after the picture: by another kernel, which takes time of its own.
+counted() {
+    "$glint" render "$source/scenes/elements/spheres.glint.yaml" -q --size 20x16 -o plain.pfm &&
+        "$glint" render "$source/scenes/elements/spheres.glint.yaml" -q --size 20x16 --stats=json -o counted.pfm >stats.json &&
+        cmp plain.pfm counted.pfm && grep -qE '"count_s": *[1-9e0.-]*[1-9]' stats.json
+}
+expect "rays are counted after the picture" 0 "" "" counted
+
 : >kept.txt
 count=0
 for shown in $scenes; do

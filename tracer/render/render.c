@@ -260,7 +260,7 @@ static bool make_band(struct renderer *renderer) {
 // What depends on the settings: the band's buffers and the kernel.
 static bool make_frame(struct renderer *renderer) {
     plan(renderer);
-    return make_band(renderer) && renderer_first_program(renderer, renderer->settings.counts);
+    return make_band(renderer) && renderer_first_program(renderer, false);
 }
 
 static void drop_frame(struct renderer *renderer) {
@@ -318,7 +318,7 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
         (old.error > 0) == (now->error > 0) && renderer_is_part(&old) == renderer_is_part(now) &&
         (old.samples == now->samples || renderer->samples_at_once == 0) &&
         (renderer->samples_at_once || renderer_most_waiting(renderer, true) <= renderer->path_stack))
-        return renderer_first_program(renderer, now->counts) != NULL;
+        return renderer_first_program(renderer, false) != NULL;
     drop_frame(renderer);
     return make_frame(renderer);
 }
@@ -337,7 +337,7 @@ void renderer_forget_kernels(struct renderer *renderer) {
 // There is time until the background comes.
 static bool compile(struct renderer *renderer) {
     const struct dispatch_block nothing = {0};
-    struct gpu_program *program = renderer_first_program(renderer, renderer->settings.counts);
+    struct gpu_program *program = renderer_first_program(renderer, false);
     const double start = clock_seconds();
     const bool compiled = program && gpu_compile(renderer->gpu, program, &nothing);
     timeline_add(renderer->settings.timeline, "compile", STR(""), start);

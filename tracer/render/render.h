@@ -64,7 +64,7 @@ struct render_settings {
     void (*show)(const void *context, const float *linear, size_t pixels, float *shown);
     const void *show_context;
     uint32_t places;           // most paths that a GPU saves at a time; 0: as many as its memory holds
-    bool counts;               // frames count their rays, which changes no bit of the picture
+    bool counts;               // after a frame that no limit ends, its rays are counted (renderer_count)
     bool background_later;     // the background has no pixels yet: renderer_background, before any frame
     struct timeline *timeline; // may be NULL
 };

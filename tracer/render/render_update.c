@@ -122,6 +122,6 @@ bool renderer_update(struct renderer *renderer, const struct flat_scene *old, co
 
 bool renderer_warm(struct renderer *renderer) {
     const struct dispatch_block nothing = {0};
-    struct gpu_program *program = renderer_first_program(renderer, renderer->settings.counts);
+    struct gpu_program *program = renderer_first_program(renderer, false);
     return program && gpu_compile(renderer->gpu, program, &nothing) && gpu_wait(renderer->gpu, NULL);
 }

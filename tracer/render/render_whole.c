@@ -75,14 +75,21 @@ enum render_result renderer_render_until(struct renderer *renderer, const struct
         return RENDER_FAILED;
     struct renderer_frame run = {
         .renderer = renderer, .progress = progress, .statistics = statistics, .limit = limit};
-    return draw_frame(&run, camera, renderer->settings.counts, rgb);
+    const enum render_result result = draw_frame(&run, camera, false, rgb);
+    if (result != RENDER_DONE || limit || !renderer->settings.counts)
+        return result;
+    return renderer_count(renderer, camera, progress, &statistics->rays);
 }
 
 enum render_result renderer_count(struct renderer *renderer, const struct view_camera *camera,
                                   const struct render_progress *progress, struct render_rays *rays) {
     struct render_statistics statistics;
     struct renderer_frame run = {.renderer = renderer, .progress = progress, .statistics = &statistics};
+    // What the picture says of itself stays.
+    const struct render_estimate estimate = renderer->estimate;
     const enum render_result result = draw_frame(&run, camera, true, NULL);
+    if (estimate.error)
+        renderer->estimate = estimate;
     *rays = statistics.rays;
     return result;
 }

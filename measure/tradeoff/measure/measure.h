@@ -46,19 +46,24 @@ struct measure_variant {
     struct reference_source source;
 };
 
-// The pictures of a search, as sums of linear values.
+// The pictures of a search.
 struct search_pictures {
-    double *truth,
-        *added; // the device's samples that rows are compared with; what the reference adds to some
-    uint32_t truth_samples, added_samples, added_most;
-    float *smooth; // the ground truth, displayed, with what the reference adds spread over neighbours
-    double change; // what more rays of the reference might change, mean of the pixels
-    double floor;  // error of the file's settings with all samples that there are
-    double *row;   // the samples from 0 on of the setting that was tried last
+    // Of a small picture with a few samples that no row has, linear: the reference's, whose paths go to their
+    // ends, and the device's by the settings tried last.
+    uint32_t probe_width, probe_height, probe_samples;
+    float *full, *tried;
+    struct setting tried_setting;
+    float *bias, *smooth; // of the file's size: what the reference has beyond those, and that spread over
+                          // neighbours
+    double change;        // what more rays of the reference might change, mean of the pixels
+    // The samples from 0 on of the setting whose row was tried last, as sums: all but the last that were
+    // added, and those.
+    double *older, *newer;
+    uint32_t older_samples, newer_samples;
     struct setting row_setting;
-    uint32_t row_samples;
     uint64_t row_not_finite;
     double row_seconds; // on the device's clock
+    float *best;        // displayed: the last row of the file's size, with the bias
     double *rgb;        // the reference's
     double *column;     // of a picture
     uint32_t deepest;   // level that the file's rays reach
@@ -180,7 +185,8 @@ enum tradeoff_status hits_measure(struct measuring *s, struct row *row);
 
 // Makes room, and finds out how far the ground truth may go.
 enum tradeoff_status search_begin(struct measuring *s);
-// Fills value, times and not_finite of a row, which is compared with several times its samples.
+// Fills value, times, rounding and not_finite of a row, whose samples are compared with each other; of a
+// probe change and floor.
 enum tradeoff_status search_row(struct measuring *s, struct row *row);
 void search_close(struct measuring *s);
 

@@ -75,8 +75,6 @@ bool errors_of_shown(struct measuring *s, struct row *row) {
         s->out->options.thumbnails ? heap_array(heap_times(width, height), sizeof *difference) : NULL;
     options.threshold = s->out->options.threshold;
     options.pixels_per_degree = s->out->options.ppd;
-    if (s->out->options.search)
-        options.metrics = 1u << s->out->options.metric;
     bool good =
         (difference || !s->out->options.thumbnails) &&
         measure_pictures(width, height, s->shown, s->ground_truth, &options, &result, difference, NULL);

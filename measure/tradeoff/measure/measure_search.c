@@ -1,9 +1,10 @@
-// The rows of a search, and the ground truth that grows with them.
+// The rows of a search, and what they are compared with.
 //
-// The ground truth is the device's own samples of the file's settings, several for one of a row and none of
-// the row's, plus what the reference finds at a few of them beyond the device: rays that max_depth and
-// min_weight cut, and rounding. Between two tracers of the same rays there is no noise of sampling, so that a
-// few do.
+// A picture's error by chance is told by its own samples: the mean of all of them and the mean of those that
+// were added last differ by about as much as the first from the truth. What no number of samples shows is
+// told by a small picture: what the reference finds beyond the device at a few samples, rays that max_depth
+// and min_weight cut, and rounding. Between two tracers of the same rays there is no noise of sampling, so
+// that a few do.
 #include "core/heap.h"
 #include "measure/tradeoff/measure/measure.h"
 #include "measure/tradeoff/plan/plan_search.h"
@@ -11,21 +12,25 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum {
-    PILOT_PIXELS = 2048,
+    PILOT_PIXELS = 1024,
     PILOT_VALUES = 3 * PILOT_PIXELS,
-    ADDED_MOST = 4, // samples of the reference, where they cost no more than what one may
 };
 // Change that does not matter where no bound says how little does; else this share of the bound.
 static const double BEARABLE = 0.001, BEARABLE_SHARE = 0.05;
-// An estimate from few samples may be too low by this share.
-static const double MARGIN = 0.1;
+// An estimate may be too low by this share: of a few samples more than of many.
+static const double MARGIN = 0.1, MARGIN_OF_ONE = 0.6;
 // One over the picture's width: how far what the reference adds is spread.
 static const double SMOOTH_WIDTH = 64;
 
 static size_t values_of(const struct measuring *s) {
     return heap_times(heap_times(3, s->base.width), s->base.height);
+}
+
+static size_t probe_values(const struct search_pictures *p) {
+    return (size_t)3 * p->probe_width * p->probe_height;
 }
 
 // ---- what the reference may take
@@ -87,7 +92,7 @@ static enum tradeoff_status run_pilots(struct measuring *s, struct pilots *pilot
     const uint64_t most = s->full.segments;
     enum tradeoff_status status = run_pilot(
         s, reference_settings_of(in->scene->ir, in->image, in->limits, true), pilots, &own, &p->deepest);
-    const double rays = plan_search_rays(&s->base, own.rays);
+    const double rays = plan_search_rays();
     while (status == TRADEOFF_DONE &&
            (s->full.segments = plan_search_pilot(pilots->all, pilots->count, rays, most, bearable)) > 0) {
         struct plan_search_pilot *pilot = &pilots->all[pilots->count];
@@ -102,8 +107,11 @@ static enum tradeoff_status run_pilots(struct measuring *s, struct pilots *pilot
     // Where no sample of a pilot needed more, those of the picture that do are few.
     s->full.segments = last->cut ? last->segments : most;
     p->change = last->cut && last->segments < most ? fmin(last->change, 1) : 0;
-    p->added_most = (uint32_t)fmin(fmax(rays / fmax(last->rays, 1), 1), ADDED_MOST);
     s->out->ground_truth_segments = s->full.segments;
+    const struct plan_search_probe probe = plan_search_probe(&s->base, last->rays);
+    p->probe_width = probe.width;
+    p->probe_height = probe.height;
+    p->probe_samples = s->out->ground_truth_samples = probe.samples;
     return status;
 }
 
@@ -118,65 +126,59 @@ static enum tradeoff_status plan_truth(struct measuring *s) {
     return status;
 }
 
+// ---- the small picture
+
+static enum tradeoff_status begin_probes(struct measuring *s) {
+    struct search_pictures *p = &s->search;
+    struct reference_settings settings = s->full;
+    struct reference_statistics taken;
+    if (!measuring_step(s, "the reference"))
+        return TRADEOFF_CANCELLED;
+    settings.width = p->probe_width;
+    settings.height = p->probe_height;
+    settings.first_sample = VIEW_OTHER_SAMPLES;
+    settings.samples = p->probe_samples;
+    const struct reference_progress progress = measuring_reference_progress(s);
+    const enum tradeoff_status status = measuring_reference_status(
+        reference_source_render(&s->source[0], &settings, p->rgb, &progress, &taken));
+    if (status != TRADEOFF_DONE)
+        return status;
+    for (size_t i = 0; i < probe_values(p); i++)
+        p->full[i] = (float)p->rgb[i];
+    s->out->ground_truth_left_weight = taken.left_weight_mean;
+    return TRADEOFF_DONE;
+}
+
 enum tradeoff_status search_begin(struct measuring *s) {
     struct search_pictures *p = &s->search;
-    const size_t values = values_of(s);
+    const size_t values = values_of(s), some = values > PILOT_VALUES ? values : PILOT_VALUES;
     s->full = reference_settings_of(s->input->scene->ir, s->input->image, s->input->limits, false);
     s->full.points_of = s->full.footprint_of = 0;
-    s->ground_truth = heap_array(values, sizeof *s->ground_truth);
-    s->shown = heap_array(values, sizeof *s->shown);
-    s->picture = heap_array(values, sizeof *s->picture);
-    p->smooth = heap_array(values, sizeof *p->smooth);
-    p->truth = heap_zeroed(values, sizeof *p->truth);
-    p->added = heap_zeroed(values, sizeof *p->added);
+    float **const floats[] = {&s->ground_truth, &s->shown, &s->picture, &p->full,
+                              &p->tried,        &p->bias,  &p->smooth,  &p->best};
+    double **const doubles[] = {&p->older, &p->newer, &p->rgb};
+    bool good = true;
+    for (size_t i = 0; i < sizeof floats / sizeof *floats; i++)
+        good = (*floats[i] = heap_array(values, sizeof(float))) != NULL && good;
+    for (size_t i = 0; i < sizeof doubles / sizeof *doubles; i++)
+        good = (*doubles[i] = heap_array(some, sizeof(double))) != NULL && good;
     p->column = heap_array(s->base.height, sizeof *p->column);
-    p->row = heap_zeroed(values, sizeof *p->row);
-    p->rgb = heap_array(values > PILOT_VALUES ? values : PILOT_VALUES, sizeof *p->rgb);
-    if (!s->ground_truth || !s->shown || !s->picture || !p->truth || !p->added || !p->row || !p->rgb ||
-        !p->smooth || !p->column)
-        return TRADEOFF_MEMORY;
-    return plan_truth(s);
+    enum tradeoff_status status = good && p->column ? plan_truth(s) : TRADEOFF_MEMORY;
+    return status == TRADEOFF_DONE ? begin_probes(s) : status;
 }
 
 void search_close(struct measuring *s) {
     struct search_pictures *p = &s->search;
+    free(p->full);
+    free(p->tried);
+    free(p->bias);
     free(p->smooth);
-    free(p->truth);
-    free(p->added);
-    free(p->row);
+    free(p->best);
+    free(p->older);
+    free(p->newer);
     free(p->rgb);
     free(p->column);
     *p = (struct search_pictures){0};
-}
-
-// ---- the ground truth
-
-// Adds `count` times the mean in s->picture.
-static void add_picture(const struct measuring *s, size_t values, double count, double *sum) {
-    for (size_t i = 0; i < values; i++)
-        sum[i] += count * (double)s->picture[i];
-}
-
-// What the reference finds at samples beyond what the device does.
-static enum tradeoff_status add_reference(struct measuring *s, uint32_t samples) {
-    struct search_pictures *p = &s->search;
-    struct reference_settings settings = s->full;
-    struct reference_statistics taken;
-    double seconds;
-    settings.first_sample = VIEW_OTHER_SAMPLES + p->added_samples;
-    settings.samples = samples - p->added_samples;
-    const struct reference_progress progress = measuring_reference_progress(s);
-    enum tradeoff_status status = measuring_reference_status(
-        reference_source_render(&s->source[0], &settings, p->rgb, &progress, &taken));
-    if (status == TRADEOFF_DONE)
-        status = device_samples(s, &s->base, settings.first_sample, settings.samples, &seconds, NULL);
-    if (status != TRADEOFF_DONE)
-        return status;
-    for (size_t i = 0; i < values_of(s); i++)
-        p->added[i] += settings.samples * (p->rgb[i] - (double)s->picture[i]);
-    p->added_samples = samples;
-    s->out->ground_truth_left_weight = fmax(s->out->ground_truth_left_weight, taken.left_weight_mean);
-    return status;
 }
 
 static double finite_or_0(double value) {
@@ -184,8 +186,8 @@ static double finite_or_0(double value) {
 }
 
 // Sums along lines become means over squares.
-static void spread_columns(const struct measuring *s, double *sums, int64_t reach) {
-    const int64_t width = s->base.width, height = s->base.height, side = 2 * reach + 1;
+static void spread_columns(struct measuring *s, double *sums, int64_t reach) {
+    const int64_t width = s->search.probe_width, height = s->search.probe_height, side = 2 * reach + 1;
     double *column = s->search.column;
     for (int64_t i = 0; i < 3 * width; i++) {
         double sum = 0;
@@ -200,166 +202,261 @@ static void spread_columns(const struct measuring *s, double *sums, int64_t reac
     }
 }
 
-// What the reference adds to a pixel, spread over a square of its neighbours: rare and bright paths, of which
-// few samples see one here and there, add a little everywhere. p->rgb gets the means.
-static void spread_added(struct measuring *s) {
+// A small picture, each value spread over a square of its neighbours: rare and bright paths, of which few
+// samples see one here and there, add a little everywhere.
+static void spread(struct measuring *s, float *values) {
     const struct search_pictures *p = &s->search;
-    const int64_t width = s->base.width, height = s->base.height;
+    const int64_t width = p->probe_width, height = p->probe_height;
     const int64_t reach = 1 + (int64_t)((double)width / SMOOTH_WIDTH);
     double *sums = p->rgb;
     for (int64_t y = 0; y < height; y++)
         for (int64_t k = 0; k < 3; k++) {
             double sum = 0;
-            const double *line = p->added + 3 * y * width + k;
+            const float *line = values + 3 * y * width + k;
             for (int64_t x = -reach; x < width; x++) {
-                sum += x + reach < width ? finite_or_0(line[3 * (x + reach)]) : 0;
-                sum -= x - reach - 1 >= 0 ? finite_or_0(line[3 * (x - reach - 1)]) : 0;
+                sum += x + reach < width ? finite_or_0((double)line[3 * (x + reach)]) : 0;
+                sum -= x - reach - 1 >= 0 ? finite_or_0((double)line[3 * (x - reach - 1)]) : 0;
                 if (x >= 0)
                     sums[3 * (y * width + x) + k] = sum;
             }
         }
     spread_columns(s, sums, reach);
+    for (size_t i = 0; i < probe_values(p); i++)
+        values[i] = (float)sums[i];
 }
 
-// Both ground truths, displayed.
-static void show_truth(struct measuring *s) {
-    struct search_pictures *p = &s->search;
-    const size_t values = values_of(s);
-    for (size_t i = 0; i < values; i++)
-        s->ground_truth[i] = (float)(p->truth[i] / p->truth_samples + p->added[i] / p->added_samples);
-    image_to_displayed(s->ground_truth, values / 3, s->display, s->ground_truth);
-    spread_added(s);
-    for (size_t i = 0; i < values; i++)
-        p->smooth[i] = (float)(p->truth[i] / p->truth_samples + p->rgb[i] / p->added_samples);
-    image_to_displayed(p->smooth, values / 3, s->display, p->smooth);
+// The metric of two displayed pictures; NaN: no memory.
+static double distance(const struct measuring *s, uint32_t width, uint32_t height, const float *a,
+                       const float *b) {
+    struct measure_options options = measure_options_default();
+    struct measure_result result;
+    options.threshold = s->out->options.threshold;
+    options.pixels_per_degree = s->out->options.ppd;
+    options.metrics = 1u << s->out->options.metric;
+    return measure_pictures(width, height, a, b, &options, &result, NULL, NULL)
+               ? result.value[s->out->options.metric]
+               : (double)NAN;
 }
 
-// The larger of the errors against the two ground truths, and what an estimate may be too low by.
-static bool estimate(struct measuring *s, struct row *row) {
+static double worse(enum metric metric, double a, double b) {
+    return metric_error(metric, a) >= metric_error(metric, b) ? a : b;
+}
+
+// The distance of s->shown from `linear` + `bias` and from `linear` + `smooth`, the larger one; the first in
+// s->ground_truth, displayed.
+static double distance_from(struct measuring *s, uint32_t width, uint32_t height, const float *linear) {
+    const struct search_pictures *p = &s->search;
     const enum metric metric = s->out->options.metric;
-    float *sharp = s->ground_truth;
-    if (!errors_of_shown(s, row))
-        return false;
-    double value = row->value[metric];
-    if (s->search.is_cut) {
-        s->ground_truth = s->search.smooth;
-        const bool good = errors_of_shown(s, row);
-        s->ground_truth = sharp;
-        if (!good)
-            return false;
-        if (metric_error(metric, row->value[metric]) > metric_error(metric, value))
-            value = row->value[metric];
+    const size_t values = (size_t)3 * width * height;
+    double value = 0;
+    for (int i = p->is_cut ? 0 : 1; i < 2; i++) {
+        const float *bias = i ? p->bias : p->smooth;
+        for (size_t k = 0; k < values; k++)
+            s->ground_truth[k] = linear[k] + bias[k];
+        image_to_displayed(s->ground_truth, values / 3, s->display, s->ground_truth);
+        const double one = distance(s, width, height, s->shown, s->ground_truth);
+        value = i && p->is_cut ? worse(metric, value, one) : one;
     }
-    if (is_mean_error(metric))
-        value += s->search.change;
-    row->value[metric] = plan_search_safe(metric, value, MARGIN);
+    return is_mean_error(metric) ? value + p->change : value;
+}
+
+static void find_bias(struct measuring *s) {
+    struct search_pictures *p = &s->search;
+    for (size_t i = 0; i < probe_values(p); i++)
+        p->smooth[i] = p->bias[i] = (float)finite_or_0((double)p->full[i] - (double)p->tried[i]);
+    if (p->is_cut)
+        spread(s, p->smooth);
+}
+
+static bool is_same_but_samples(const struct setting *a, const struct setting *b) {
+    for (int knob = 0; knob < KNOB_COUNT; knob++)
+        if (knob != KNOB_SAMPLES && plan_differs(a, b, (enum knob)knob))
+            return false;
     return true;
 }
 
-// The error that remains of the file's settings, however many samples they have.
-static enum tradeoff_status measure_floor(struct measuring *s) {
+// p->tried, and the bias at its size.
+static enum tradeoff_status try_probe(struct measuring *s, const struct setting *setting) {
     struct search_pictures *p = &s->search;
-    const enum metric metric = s->out->options.metric;
-    struct row all = {.setting = s->base};
-    for (size_t i = 0; i < values_of(s); i++)
-        s->shown[i] = (float)(p->truth[i] / p->truth_samples);
-    image_to_displayed(s->shown, values_of(s) / 3, s->display, s->shown);
-    if (!estimate(s, &all))
-        return TRADEOFF_MEMORY;
-    p->floor = metric_error(metric, all.value[metric]);
-    return TRADEOFF_DONE;
+    struct setting small = *setting;
+    double seconds;
+    small.width = p->probe_width;
+    small.height = p->probe_height;
+    const enum tradeoff_status status =
+        device_samples(s, &small, VIEW_OTHER_SAMPLES, p->probe_samples, &seconds, NULL);
+    if (status != TRADEOFF_DONE)
+        return status;
+    memcpy(p->tried, s->picture, probe_values(p) * sizeof *p->tried);
+    p->tried_setting = *setting;
+    find_bias(s);
+    return status;
 }
 
-// At least as many samples as a row of `samples` is compared with.
-static enum tradeoff_status grow_truth(struct measuring *s, uint32_t samples) {
+static enum tradeoff_status probe_row(struct measuring *s, struct row *row) {
     struct search_pictures *p = &s->search;
-    const uint32_t wanted = plan_search_truth(samples);
-    const uint32_t added = samples < p->added_most ? samples : p->added_most;
-    enum tradeoff_status status = TRADEOFF_DONE;
-    double seconds;
-    if (p->truth_samples >= wanted)
-        return status;
-    if (!measuring_step(s, "the samples to compare with"))
-        return TRADEOFF_CANCELLED;
-    status = device_samples(s, &s->base, VIEW_OTHER_SAMPLES + p->truth_samples, wanted - p->truth_samples,
-                            &seconds, NULL);
+    const enum metric metric = s->out->options.metric;
+    const enum tradeoff_status status = try_probe(s, &row->setting);
     if (status != TRADEOFF_DONE)
         return status;
-    add_picture(s, values_of(s), wanted - p->truth_samples, p->truth);
-    s->out->ground_truth_samples = p->truth_samples = wanted;
-    if (p->added_samples < added)
-        status = measuring_step(s, "the reference") ? add_reference(s, added) : TRADEOFF_CANCELLED;
-    if (status != TRADEOFF_DONE)
-        return status;
-    show_truth(s);
-    return measure_floor(s);
+    image_to_displayed(p->tried, probe_values(p) / 3, s->display, s->shown);
+    row->floor = metric_error(metric, distance_from(s, p->probe_width, p->probe_height, p->tried));
+    for (int i = 0; i < METRIC_COUNT; i++)
+        row->value[i] = (double)NAN;
+    return isnan(row->floor) ? TRADEOFF_MEMORY : TRADEOFF_DONE;
 }
 
 // ---- rows
 
-static bool goes_on_from(const struct search_pictures *p, const struct setting *setting) {
-    for (int knob = 0; knob < KNOB_COUNT; knob++)
-        if (knob != KNOB_SAMPLES && plan_differs(&p->row_setting, setting, (enum knob)knob))
-            return false;
-    return p->row_samples > 0 && p->row_samples <= setting->samples;
+// The bias of the row's setting, at the file's size.
+static enum tradeoff_status take_bias(struct measuring *s, const struct setting *setting) {
+    struct search_pictures *p = &s->search;
+    if (p->tried_setting.samples != SEARCH_PROBE && p->tried_setting.width &&
+        is_same_but_samples(setting, &p->tried_setting))
+        return TRADEOFF_DONE;
+    const enum tradeoff_status status = try_probe(s, setting);
+    if (status != TRADEOFF_DONE)
+        return status;
+    p->tried_setting.samples = setting->samples; // no probe's, which is of the small size
+    float *const pictures[] = {p->bias, p->smooth};
+    for (size_t i = 0; i < 2; i++) {
+        scale_picture(pictures[i], p->probe_width, p->probe_height, s->shown, s->base.width, s->base.height);
+        memcpy(pictures[i], s->shown, values_of(s) * sizeof(float));
+    }
+    return TRADEOFF_DONE;
 }
 
-static enum tradeoff_status begin_row(struct measuring *s, const struct setting *setting) {
-    struct search_pictures *p = &s->search;
-    double seconds;
+static void begin_row(struct search_pictures *p, const struct setting *setting, size_t values) {
     p->row_setting = *setting;
-    p->row_samples = 0;
+    p->older_samples = p->newer_samples = 0;
     p->row_seconds = 0;
     p->row_not_finite = 0;
-    for (size_t i = 0; i < values_of(s); i++)
-        p->row[i] = 0;
-    // Another kernel is compiled with its first frame.
-    const bool is_new = setting->is_double != s->base.is_double || setting->shadows != s->base.shadows;
-    return is_new ? device_samples(s, setting, 0, 1, &seconds, NULL) : TRADEOFF_DONE;
+    memset(p->older, 0, values * sizeof *p->older);
+    memset(p->newer, 0, values * sizeof *p->newer);
 }
 
-static enum tradeoff_status row_picture(struct measuring *s, struct row *row) {
+static enum tradeoff_status add_samples(struct measuring *s, const struct setting *setting, size_t values,
+                                        uint32_t more) {
     struct search_pictures *p = &s->search;
-    const struct setting *setting = &row->setting;
-    const size_t values = (size_t)3 * setting->width * setting->height;
-    enum tradeoff_status status = TRADEOFF_DONE;
-    double seconds = 0;
-    if (!goes_on_from(p, setting))
-        status = begin_row(s, setting);
-    const uint32_t more = setting->samples - p->row_samples;
-    if (status == TRADEOFF_DONE && more)
-        status = device_samples(s, setting, p->row_samples, more, &seconds, &p->row_not_finite);
-    if (status != TRADEOFF_DONE) {
-        p->row_samples = 0;
+    const uint32_t before = p->older_samples + p->newer_samples;
+    double seconds;
+    const enum tradeoff_status status =
+        device_samples(s, setting, before, more, &seconds, &p->row_not_finite);
+    if (status != TRADEOFF_DONE)
         return status;
+    for (size_t i = 0; i < values; i++) {
+        p->older[i] += p->newer[i];
+        p->newer[i] = more * (double)s->picture[i];
     }
-    if (more)
-        add_picture(s, values, more, p->row);
-    p->row_samples = setting->samples;
+    p->older_samples = before;
+    p->newer_samples = more;
     p->row_seconds += seconds;
-    row->time_ms = row->time_low_ms = row->time_high_ms = 1e3 * p->row_seconds;
-    row->not_finite = p->row_not_finite;
-    for (size_t i = 0; i < values; i++)
-        s->picture[i] = (float)(p->row[i] / p->row_samples);
     return status;
+}
+
+// The samples of a row, and one more where it has only one, in two parts.
+static enum tradeoff_status draw_row(struct measuring *s, const struct setting *setting) {
+    struct search_pictures *p = &s->search;
+    const size_t values = (size_t)3 * setting->width * setting->height;
+    const uint32_t wanted = setting->samples > 1 ? setting->samples : 2;
+    enum tradeoff_status status = TRADEOFF_DONE;
+    if (!is_same_but_samples(&p->row_setting, setting) || p->older_samples + p->newer_samples > wanted)
+        begin_row(p, setting, values);
+    while (status == TRADEOFF_DONE && p->older_samples + p->newer_samples < wanted) {
+        const uint32_t has = p->older_samples + p->newer_samples;
+        status = add_samples(s, setting, values, has ? wanted - has : (wanted + 1) / 2);
+    }
+    if (status != TRADEOFF_DONE)
+        p->row_setting = (struct setting){0};
+    return status;
+}
+
+// Fills s->picture with the row's picture, linear, and p->best with one that is as far from it as it is from
+// the truth, as far as its own samples tell: two means of samples that differ by chance.
+static void row_pictures(struct measuring *s, const struct setting *setting) {
+    struct search_pictures *p = &s->search;
+    const size_t values = (size_t)3 * setting->width * setting->height;
+    const double o = p->older_samples, n = p->newer_samples;
+    const bool is_one = setting->samples < o + n;
+    const double further = is_one ? sqrt(n / (o + n)) : sqrt(n / o);
+    for (size_t i = 0; i < values; i++) {
+        const double mean = is_one ? p->older[i] / o : (p->older[i] + p->newer[i]) / (o + n);
+        s->picture[i] = (float)mean;
+        p->best[i] = (float)(mean + further * (p->newer[i] / n - mean));
+    }
+}
+
+// As the file has it.
+static void round_shown(const struct measuring *s) {
+    const double levels = s->out->options.levels;
+    for (size_t i = 0; levels > 0 && i < values_of(s); i++)
+        s->shown[i] = (float)(floor(levels * (double)s->shown[i] + 0.5) / levels);
+}
+
+// Of the file's size: s->picture and p->best are as row_pictures leaves them.
+static void measure_whole(struct measuring *s, struct row *row) {
+    struct search_pictures *p = &s->search;
+    const enum metric metric = s->out->options.metric;
+    const uint32_t width = s->base.width, height = s->base.height;
+    image_to_displayed(s->picture, values_of(s) / 3, s->display, s->shown);
+    memcpy(s->ground_truth, s->shown, values_of(s) * sizeof(float));
+    round_shown(s);
+    row->rounding = metric_error(metric, distance(s, width, height, s->shown, s->ground_truth));
+    row->value[metric] = distance_from(s, width, height, p->best);
+    for (size_t i = 0; i < values_of(s); i++)
+        p->best[i] = s->picture[i] + p->bias[i];
+    image_to_displayed(p->best, values_of(s) / 3, s->display, p->best);
+}
+
+// Smaller pictures are compared with the last one of the file's size. Scaled up as render does it: before
+// they are displayed.
+static void measure_small(struct measuring *s, struct row *row) {
+    const uint32_t width = s->base.width, height = s->base.height;
+    scale_picture(s->picture, row->setting.width, row->setting.height, s->shown, width, height);
+    image_to_displayed(s->shown, values_of(s) / 3, s->display, s->shown);
+    round_shown(s);
+    row->value[s->out->options.metric] = distance(s, width, height, s->shown, s->search.best);
+}
+
+static void fill_row(struct measuring *s, struct row *row) {
+    const struct search_pictures *p = &s->search;
+    const struct setting *setting = &row->setting;
+    const enum metric metric = s->out->options.metric;
+    const double drawn = p->older_samples + p->newer_samples;
+    row->value[metric] =
+        plan_search_safe(metric, row->value[metric], MARGIN + MARGIN_OF_ONE / setting->samples);
+    row->time_ms = row->time_low_ms = row->time_high_ms = 1e3 * p->row_seconds * setting->samples / drawn;
+    row->not_finite = p->row_not_finite;
+    // Of rows that take as long, the one of fewer samples.
+    row->work.cost =
+        (double)setting->width * setting->height * setting->samples * (setting->is_double ? 2 : 1);
 }
 
 enum tradeoff_status search_row(struct measuring *s, struct row *row) {
     const struct setting *setting = &row->setting;
-    enum tradeoff_status status = grow_truth(s, setting->samples);
-    if (status == TRADEOFF_DONE && !measuring_step(s, row->name))
-        status = TRADEOFF_CANCELLED;
+    const bool is_whole = setting->width == s->base.width && setting->height == s->base.height;
+    if (!measuring_step(s, row->name))
+        return TRADEOFF_CANCELLED;
+    if (setting->samples == SEARCH_PROBE)
+        return probe_row(s, row);
+    enum tradeoff_status status = is_whole ? take_bias(s, setting) : TRADEOFF_DONE;
     if (status == TRADEOFF_DONE)
-        status = row_picture(s, row);
+        status = draw_row(s, setting);
     if (status != TRADEOFF_DONE)
         return status;
-    // Scaled up as render does it: before it is displayed.
-    scale_picture(s->picture, setting->width, setting->height, s->shown, s->base.width, s->base.height);
-    image_to_displayed(s->shown, values_of(s) / 3, s->display, s->shown);
-    if (!estimate(s, row))
+    for (int i = 0; i < METRIC_COUNT; i++)
+        row->value[i] = (double)NAN;
+    if (is_whole) {
+        row_pictures(s, setting);
+        measure_whole(s, row);
+    } else {
+        float *best = s->search.best;
+        s->search.best = s->search.tried; // of no use for this row
+        row_pictures(s, setting);
+        s->search.best = best;
+        measure_small(s, row);
+    }
+    if (isnan(row->value[s->out->options.metric]) && !s->search.row_not_finite)
         return TRADEOFF_MEMORY;
-    // Of rows that take as long, the one of fewer samples.
-    row->work.cost =
-        (double)setting->width * setting->height * setting->samples * (setting->is_double ? 2 : 1);
+    fill_row(s, row);
     return status;
 }

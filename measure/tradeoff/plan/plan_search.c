@@ -5,21 +5,30 @@
 enum {
     LADDER_MAX = 4,
     PILOT_STEP = 4,       // from one pilot's rays to the next one's
-    PILOT_RAYS_TIMES = 4, // what a pilot may take where too much weight is left
-    TRUTH_TIMES = 2,      // samples for one of a row
-    TRUTH_LEAST = 8,      // more than that, or as many again if those are fewer
+    PILOT_RAYS_TIMES = 2, // what a pilot may take where too much weight is left
+    PROBE_LEAST = 1 << 10,
+    PROBE_MOST = 1 << 16, // pixels
+    PROBE_SAMPLES = 4,    // at most
     SETTLED = 8,          // samples from which on errors tell of more
-    DEEPER_MOST = 2,      // times that paths are made longer
-    TRUTH_RENDERS = 1,    // the file's rays, times this, for a sample that is followed to its end
+    DEEPER_MOST = 6,      // times that paths are made longer
+    DEPTH_MOST = 64,      // that a scene may ask for
+    STEP_FEW = 2,         // times the samples, while they are few
+    STEP_MOST = 4,
 };
-// Rays of the reference that take about a second, whatever the picture.
-static const double TRUTH_RAYS_LEAST = 1e6;
+// Rays of the reference that take about half a second, whatever the picture.
+static const double TRUTH_RAYS = 6e5;
+// Lighter paths are followed, one step deeper.
+static const double DEEPER_WEIGHT = 3;
+// Errors fall by about this power of the samples: those of edges by about 0.75, of the rest by 0.5.
+static const double FALLS_LEAST = 0.4, FALLS = 0.5, FALLS_MOST = 0.75;
 // Four times the samples make errors about half as large. Where they do not, something else is wrong.
 static const double STAGNATES = 0.9;
-// Errors fall no faster than by this power of the samples: those of edges by about 0.75, of the rest by 0.5.
-static const double FALLS = 0.75;
+// More than what is foretold, and at least, from one row to the next.
+static const double AIM = 1.06, STEP_LEAST = 1.15;
 // Of the bound: what may remain however many samples there are.
 static const double FLOOR_SHARE = 0.9;
+// Of the bound: what more may remain where less is traced.
+static const double LOWER_SHARE = 0.1;
 // Of the time that is left, for the next try.
 static const double TIME_SHARE = 0.97;
 
@@ -59,67 +68,139 @@ static bool keeps(const struct searching *s, const struct row *row) {
     return error_of(s, row) <= s->input->error_most;
 }
 
-uint32_t plan_search_samples(const struct setting *base) {
-    const uint32_t times = SEARCH_SAMPLES_TIMES * base->samples;
-    return times > SEARCH_SAMPLES_LEAST ? times : SEARCH_SAMPLES_LEAST;
+// What is proportional to the size of the differences, of a value as metric_error has it.
+static double amount_of(enum metric metric, double error) {
+    return metric == METRIC_PSNR     ? pow(10, error / 20)
+           : metric == METRIC_SSIM   ? sqrt(fmax(1 + error, 0))
+           : metric == METRIC_RELMSE ? sqrt(fmax(error, 0))
+                                     : fmax(error, 0);
+}
+
+// The bound, or a share of it.
+static double share_of_bound(const struct plan_search_input *in, double share) {
+    const double value = metric_infos[in->metric].higher_is_better ? -in->error_most : in->error_most;
+    return metric_error(in->metric, plan_search_safe(in->metric, value, share - 1));
+}
+
+// ---- what samples do
+
+struct climb {
+    double samples, amount;               // of the last row
+    double before_samples, before_amount; // of the one before it; 0: there was none
+};
+
+// To which power of the samples errors fall, going by the last two rows.
+static double falls(const struct climb *c) {
+    if (!(c->before_samples >= 2) || !(c->amount > 0) || !(c->before_amount > 0))
+        return FALLS;
+    const double power = log(c->before_amount / c->amount) / log(c->samples / c->before_samples);
+    return fmin(fmax(power, FALLS_LEAST), FALLS_MOST);
+}
+
+// That keep the bound, going by the last rows.
+static double foretold(const struct plan_search_input *in, const struct climb *c, double power) {
+    const double bound = amount_of(in->metric, in->error_most);
+    return bound > 0 ? c->samples * pow(c->amount / bound, 1 / power) : (double)INFINITY;
+}
+
+static bool stagnates(const struct climb *c) {
+    return c->before_samples >= SETTLED && c->samples >= STEP_FEW * c->before_samples &&
+           c->amount > STAGNATES * c->before_amount;
+}
+
+static bool is_hopeless(const struct plan_search_input *in, const struct climb *c) {
+    const bool known = c->samples >= SETTLED;
+    return !(amount_of(in->metric, in->error_most) > 0) ||
+           (known && (stagnates(c) || foretold(in, c, FALLS_MOST) > SEARCH_SAMPLES_MOST));
+}
+
+// After a row that does not keep the bound; 0: no number of samples does.
+static uint32_t more_samples(const struct plan_search_input *in, const struct climb *c) {
+    const double most = (c->samples < SETTLED ? STEP_FEW : STEP_MOST) * c->samples;
+    const double wanted = fmax(AIM * foretold(in, c, falls(c)), STEP_LEAST * c->samples);
+    if (is_hopeless(in, c) || c->samples >= SEARCH_SAMPLES_MOST)
+        return 0;
+    return (uint32_t)fmin(ceil(fmin(wanted, most)), SEARCH_SAMPLES_MOST);
+}
+
+static void climb_on(const struct plan_search_input *in, struct climb *c, uint32_t samples, double error) {
+    c->before_samples = c->samples;
+    c->before_amount = c->amount;
+    c->samples = samples;
+    c->amount = amount_of(in->metric, error);
 }
 
 // ---- by error
 
-static struct setting deeper(const struct setting *at) {
-    struct setting s = *at;
-    s.max_depth = at->max_depth ? 2 * at->max_depth : 2;
-    s.min_weight = at->min_weight / 10;
+static struct setting probe_of(const struct setting *setting) {
+    struct setting s = *setting;
+    s.samples = SEARCH_PROBE;
     return s;
 }
 
-// Whether samples of this setting could still keep the bound, going by its last rows: errors fall no faster
-// than samples rise.
-static bool is_hopeless(const struct searching *s, double before_last, double now, uint32_t samples) {
-    const double more = (double)plan_search_samples(&s->input->base) / samples;
-    const double least = now * pow(more, -FALLS);
-    if (samples < 2 || !(now > 0) || !(s->input->error_most >= 0))
-        return false;
-    return least > s->input->error_most || (samples >= SETTLED && now > STAGNATES * before_last);
+static struct setting deeper(const struct setting *at) {
+    struct setting s = *at;
+    const uint32_t twice = at->max_depth ? 2 * at->max_depth : 2;
+    s.max_depth = twice < DEPTH_MOST ? twice : DEPTH_MOST;
+    s.min_weight = at->min_weight / DEEPER_WEIGHT;
+    return s;
 }
 
-// Doubles the samples until the bound is kept. NULL: it is not, or a row must be measured first.
+// Samples are added until the bound is kept. NULL: it is not, or a row must be measured first.
 static const struct row *climb(struct searching *s, struct setting *at) {
-    double last = (double)INFINITY, before_last = (double)INFINITY;
-    for (at->samples = 1; at->samples <= plan_search_samples(&s->input->base); at->samples *= 2) {
+    struct climb c = {0};
+    for (at->samples = 1; at->samples; at->samples = more_samples(s->input, &c)) {
         const struct row *row = ask(s, at);
         if (!row || keeps(s, row))
             return row;
-        if (is_hopeless(s, before_last, error_of(s, row), at->samples))
+        climb_on(s->input, &c, at->samples, error_of(s, row));
+        if (!isfinite(c.amount) || row->rounding > s->input->error_most)
             return NULL;
-        before_last = last;
-        last = error_of(s, row);
     }
     return NULL;
 }
 
-// Where the file's own settings cut too much for the bound, longer paths.
-static const struct row *climb_anywhere(struct searching *s, struct setting *at) {
-    const double most = s->input->error_most;
-    if (!s->input->cut || s->input->floor <= most - (1 - FLOOR_SHARE) * fabs(most))
-        return climb(s, at);
-    const struct row *row = NULL;
-    for (int i = 0; !row && !s->pending && i < DEEPER_MOST; i++) {
+// Whether samples can keep the bound: with longer paths where the file cuts too much for it.
+static bool is_in_reach(struct searching *s, struct setting *at) {
+    const double most = share_of_bound(s->input, FLOOR_SHARE);
+    for (int i = 0; i <= DEEPER_MOST; i++) {
+        const struct setting probe = probe_of(at);
+        const struct row *row = ask(s, &probe);
+        if (!row || row->floor <= most)
+            return row;
+        if (!s->input->cut)
+            return false;
         *at = deeper(at);
-        row = climb(s, at);
     }
-    return row;
+    return false;
 }
 
-// Settings from coarse to fine, all coarser than *at: the coarsest that keeps the bound, by halving.
-static void lower(struct searching *s, struct setting *at, const struct setting *ladder, uint32_t count) {
-    uint32_t low = 0, high = count; // all below `low` fail; `high` keeps it, or is *at itself
+// What may remain of the error where less is traced, as amount_of: what remains now and a part of the bound,
+// or what a sample leaves of it.
+static double allowance(struct searching *s, const struct setting *at) {
+    struct setting one = probe_of(at);
+    const struct row *probe = ask(s, &one);
+    one.samples = 1;
+    const struct row *row = ask(s, &one);
+    if (!row || !probe)
+        return 0;
+    const double bound = amount_of(s->input->metric, s->input->error_most);
+    const double left = bound - amount_of(s->input->metric, error_of(s, row));
+    return amount_of(s->input->metric, probe->floor) + fmax(LOWER_SHARE * bound, left);
+}
+
+// Settings from coarse to fine, all coarser than *at: the coarsest of which no more remains than is allowed,
+// by halving.
+static void lower(struct searching *s, struct setting *at, const struct setting *ladder, uint32_t count,
+                  double allowed) {
+    uint32_t low = 0, high = count; // of all below `low` more remains; not of `high`, or it is *at itself
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
-        const struct row *row = ask(s, &ladder[middle]);
+        const struct setting probe = probe_of(&ladder[middle]);
+        const struct row *row = ask(s, &probe);
         if (!row)
             return;
-        if (keeps(s, row))
+        if (amount_of(s->input->metric, row->floor) <= allowed)
             high = middle;
         else
             low = middle + 1;
@@ -128,20 +209,19 @@ static void lower(struct searching *s, struct setting *at, const struct setting 
         *at = ladder[high];
 }
 
-static void lower_samples(struct searching *s, struct setting *at) {
-    struct setting fewer = *at;
-    fewer.samples = at->samples / 4 * 3;
-    if (at->samples >= 4)
-        lower(s, at, &fewer, 1);
-}
-
+// Smaller pictures are tried as they are.
 static void lower_size(struct searching *s, struct setting *at) {
     struct setting ladder[LADDER_MAX];
     const uint32_t count = s->input->allow_resolution ? plan_sizes(at, ladder) : 0;
-    lower(s, at, ladder, count);
+    for (uint32_t i = count; i-- > 0;) {
+        const struct row *row = ask(s, &ladder[i]);
+        if (!row || !keeps(s, row))
+            return;
+        *at = ladder[i];
+    }
 }
 
-static void lower_depth(struct searching *s, struct setting *at) {
+static void lower_depth(struct searching *s, struct setting *at, double allowed) {
     struct setting ladder[LADDER_MAX];
     uint32_t count = 0;
     const uint32_t own = at->max_depth < s->input->deepest ? at->max_depth : s->input->deepest;
@@ -150,10 +230,10 @@ static void lower_depth(struct searching *s, struct setting *at) {
             ladder[count] = *at;
             ladder[count++].max_depth = own / part;
         }
-    lower(s, at, ladder, own ? count : 0);
+    lower(s, at, ladder, own ? count : 0, allowed);
 }
 
-static void lower_weight(struct searching *s, struct setting *at) {
+static void lower_weight(struct searching *s, struct setting *at, double allowed) {
     static const double weights[] = {0.1, 0.03, 0.01};
     struct setting ladder[LADDER_MAX];
     uint32_t count = 0;
@@ -162,30 +242,31 @@ static void lower_weight(struct searching *s, struct setting *at) {
             ladder[count] = *at;
             ladder[count++].min_weight = weights[i];
         }
-    lower(s, at, ladder, at->max_depth ? count : 0);
+    lower(s, at, ladder, at->max_depth ? count : 0, allowed);
 }
 
-static void lower_others(struct searching *s, struct setting *at) {
+static void lower_others(struct searching *s, struct setting *at, double allowed) {
     struct setting coarse = *at;
     coarse.is_double = false;
-    lower(s, at, &coarse, at->is_double);
+    lower(s, at, &coarse, at->is_double, allowed);
     coarse = *at;
     coarse.shadows = false;
-    lower(s, at, &coarse, at->shadows);
+    lower(s, at, &coarse, at->shadows, allowed);
 }
 
 static void by_error(struct searching *s) {
     struct setting at = s->input->base;
     at.error = 0; // the search says how many samples there are
-    if (!climb_anywhere(s, &at))
+    if (!is_in_reach(s, &at))
         return;
-    lower_samples(s, &at);
-    lower_size(s, &at);
+    const double allowed = allowance(s, &at);
     if (s->input->bounces) {
-        lower_depth(s, &at);
-        lower_weight(s, &at);
+        lower_depth(s, &at, allowed);
+        lower_weight(s, &at, allowed);
     }
-    lower_others(s, &at);
+    lower_others(s, &at, allowed);
+    if (climb(s, &at))
+        lower_size(s, &at);
 }
 
 // ---- by time
@@ -193,8 +274,7 @@ static void by_error(struct searching *s) {
 // How many samples of the row's setting fit into the time, going by the row's own.
 static uint32_t samples_in(const struct searching *s, const struct row *row) {
     const double fit = s->input->time_most_ms / row->time_ms * row->setting.samples;
-    const uint32_t most = plan_search_samples(&s->input->base);
-    return fit >= most ? most : fit >= 1 ? (uint32_t)fit : 0;
+    return fit >= SEARCH_SAMPLES_MOST ? SEARCH_SAMPLES_MOST : fit >= 1 ? (uint32_t)fit : 0;
 }
 
 // As many samples as fit, more than `more_than`; returns how many, or 0.
@@ -253,9 +333,51 @@ bool plan_search_next(const struct plan_search_input *input, const struct row *r
         by_time(&s);
     else
         by_error(&s);
-    if (s.pending)
-        plan_describe(next, &input->base);
-    return s.pending;
+    if (!s.pending)
+        return false;
+    const bool is_probe = next->setting.samples == SEARCH_PROBE;
+    if (is_probe)
+        next->setting.samples = input->base.samples;
+    plan_describe(next, &input->base);
+    if (is_probe) {
+        next->setting.samples = SEARCH_PROBE;
+        next->choosable = false;
+    }
+    return true;
+}
+
+// ---- what it would take
+
+struct search_verdict plan_search_verdict(const struct plan_search_input *input, const struct row *rows,
+                                          uint32_t count) {
+    struct search_verdict v = {SEARCH_UNKNOWN, 0, 0, (double)NAN};
+    struct climb c = {0};
+    double ms = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct row *row = &rows[i];
+        const double error = metric_error(input->metric, row->value[input->metric]);
+        if (row->setting.samples == SEARCH_PROBE) {
+            if (v.kind == SEARCH_UNKNOWN || v.kind == SEARCH_REMAINS)
+                v.kind = row->floor > share_of_bound(input, FLOOR_SHARE) ? SEARCH_REMAINS : SEARCH_UNKNOWN;
+            v.value = v.kind == SEARCH_REMAINS ? row->floor : (double)NAN;
+            continue;
+        }
+        if (row->rounding > input->error_most)
+            return (struct search_verdict){SEARCH_FORMAT, 0, 0, row->rounding};
+        if (!isfinite(error) || row->not_finite || row->setting.width != input->base.width)
+            continue;
+        c = row->setting.samples > c.samples ? c : (struct climb){0};
+        climb_on(input, &c, row->setting.samples, error);
+        ms = row->time_ms / row->setting.samples;
+        v.kind = SEARCH_SAMPLES;
+    }
+    if (v.kind != SEARCH_SAMPLES)
+        return v;
+    if (stagnates(&c))
+        return (struct search_verdict){SEARCH_REMAINS, 0, 0, c.amount};
+    v.samples = foretold(input, &c, falls(&c));
+    v.seconds = 1e-3 * ms * v.samples;
+    return v;
 }
 
 // ---- the ground truth
@@ -268,14 +390,19 @@ double plan_search_safe(enum metric metric, double value, double share) {
     return (1 + share) * value;
 }
 
-uint32_t plan_search_truth(uint32_t samples) {
-    const uint32_t times = TRUTH_TIMES * samples, more = times < TRUTH_LEAST ? times : TRUTH_LEAST;
-    return times + more > TRUTH_LEAST ? times + more : TRUTH_LEAST;
+double plan_search_rays(void) {
+    return TRUTH_RAYS / PROBE_LEAST;
 }
 
-double plan_search_rays(const struct setting *base, double own) {
-    const double pixels = (double)base->width * base->height;
-    return fmax(TRUTH_RENDERS * own * base->samples, TRUTH_RAYS_LEAST / pixels);
+struct plan_search_probe plan_search_probe(const struct setting *base, double rays) {
+    const double all = (double)base->width * base->height;
+    const double pixels = fmin(fmax(TRUTH_RAYS / fmax(rays, 1), PROBE_LEAST), PROBE_MOST);
+    const double scale = fmin(sqrt(pixels / all), 1);
+    struct plan_search_probe p = {(uint32_t)fmax(scale * base->width, 1),
+                                  (uint32_t)fmax(scale * base->height, 1), 1};
+    const double samples = TRUTH_RAYS / (fmax(rays, 1) * p.width * p.height);
+    p.samples = (uint32_t)fmin(fmax(samples, 1), PROBE_SAMPLES);
+    return p;
 }
 
 uint64_t plan_search_pilot(const struct plan_search_pilot *pilots, uint32_t count, double rays_most,

@@ -1,19 +1,19 @@
 // Which settings are tried when a few must do: for render, which wants an answer and no table. Private to
 // measure/tradeoff.
 //
-// For a bound of the error: samples are doubled until it is kept, then what is traced is lowered, one knob
-// after the other, as far as the bound allows. For a bound of the time: as many samples as fit, and the same
-// with shorter paths. The search is a function of the rows that were measured: the same rows, the same next
-// one. Thread safety: pure.
+// For a bound of the error: what is traced is lowered, one knob after the other, where a few samples of a
+// small picture show that little more remains of the error, or made longer where the file's paths are too
+// short for the bound; then samples are added until the bound is kept, as many as the rows so far foretell.
+// For a bound of the time: as many samples as fit, and the same with shorter paths. The search is a function
+// of the rows that were measured: the same rows, the same next one. Thread safety: pure.
 #ifndef GLINT_MEASURE_TRADEOFF_PLAN_PLAN_SEARCH_H
 #define GLINT_MEASURE_TRADEOFF_PLAN_PLAN_SEARCH_H
 
 #include "measure/tradeoff/plan/plan.h"
 
 enum {
-    SEARCH_ROWS_MAX = 48,
-    SEARCH_SAMPLES_LEAST = 64, // that may be tried, however few the file has
-    SEARCH_SAMPLES_TIMES = 4,  // the file's samples
+    SEARCH_ROWS_MAX = 64,
+    SEARCH_PROBE = 0, // samples of a row that is no picture: its `floor` is wanted
 };
 
 struct plan_search_input {
@@ -24,22 +24,20 @@ struct plan_search_input {
     uint32_t deepest;    // level that the file's rays reach
     bool bounces;        // something reflects or refracts
     bool cut;            // the file's settings cut rays that the ground truth follows
-    double floor;        // error that the file's settings keep, however many samples; as metric_error
     bool allow_resolution;
 };
 
 // Describes the row to be measured next. false: nothing more is worth it.
 bool plan_search_next(const struct plan_search_input *input, const struct row *rows, uint32_t count,
                       struct row *next);
-// The most samples that are tried.
-uint32_t plan_search_samples(const struct setting *base);
+// What the rows of a search for a bound of the error say of it, where none keeps it.
+struct search_verdict plan_search_verdict(const struct plan_search_input *input, const struct row *rows,
+                                          uint32_t count);
 
 // ---- how far the ground truth of a search goes
 
 // The value that is worse by this share of the error.
 double plan_search_safe(enum metric metric, double value, double share);
-// Samples that a row of `samples` is compared with: several times as many, and not only a few.
-uint32_t plan_search_truth(uint32_t samples);
 
 // A pilot of the ground truth, or of the file's settings.
 struct plan_search_pilot {
@@ -49,8 +47,14 @@ struct plan_search_pilot {
     bool cut;          // some samples would have taken more
 };
 
-// Rays that a sample of the ground truth may take on average. `own`: of the file's settings.
-double plan_search_rays(const struct setting *base, double own);
+// Rays that a sample of the ground truth may take on average.
+double plan_search_rays(void);
+// How large a picture, of how many samples, the reference makes where a sample takes so many rays: pixels are
+// at most those of the file.
+struct plan_search_probe {
+    uint32_t width, height, samples;
+};
+struct plan_search_probe plan_search_probe(const struct setting *base, double rays);
 // Rays a sample of the pilot to be counted next; 0: what is known is enough. `bearable`: a change that does
 // not matter.
 uint64_t plan_search_pilot(const struct plan_search_pilot *pilots, uint32_t count, double rays_most,

@@ -89,8 +89,7 @@ void tradeoff_answers(const struct tradeoff *t, struct strbuf *out) {
 }
 
 void tradeoff_search_notes(const struct tradeoff *t, struct strbuf *out) {
-    strbuf_format(out, "%u settings tried on %s, compared with up to %u samples of their own", t->count,
-                  t->device, t->ground_truth_samples);
+    strbuf_format(out, "%u settings tried on %s", t->tried, t->device);
     if (t->is_recalled)
         strbuf_cstr(out, "; found by an earlier call, and kept\n");
     else

@@ -18,7 +18,8 @@
 #include "tracer/render/render.h"
 
 enum {
-    TRADEOFF_COST_MOST = 64, // settings that cost more than this many times the file's own are left out
+    TRADEOFF_COST_MOST = 64,    // settings that cost more than this many times the file's own are left out
+    SEARCH_SAMPLES_MOST = 4096, // that a picture may have
 };
 
 // What a whole study may take where nothing else is asked for, in seconds.
@@ -94,6 +95,9 @@ struct row {
     double time_low_ms, time_high_ms, noise_ms; // quartiles, standard error of the median
     double value[METRIC_COUNT];                 // as measure_result
     uint64_t not_finite;                        // pixels the device reported
+    // Of a search, as metric_error: what remains of the error with all samples, of a small picture; and what
+    // rounding to the file's format alone brings.
+    double floor, rounding;
     struct error_parts parts;
     struct hit_errors hits;
     struct strbuf thumbnail, difference; // PNG; empty where not wanted
@@ -111,6 +115,7 @@ struct tradeoff_options {
     bool search;           // for choosing alone, by few rows: no alternatives, hits, parts or rounds
     bool allow_resolution; // of a search: smaller pictures, to be scaled up, may be chosen
     double threshold, ppd; // of the metrics
+    double levels;         // of a search: steps of the format that is written; 0: it is not rounded
 };
 
 struct tradeoff_input {
@@ -133,6 +138,19 @@ enum tradeoff_status {
     TRADEOFF_MEMORY,
 };
 
+// Why a search found nothing that keeps the error, and what would.
+enum search_reason {
+    SEARCH_UNKNOWN,
+    SEARCH_SAMPLES, // more samples: about so many, which take so long
+    SEARCH_FORMAT,  // no picture of the format does: rounding alone has the value
+    SEARCH_REMAINS, // no number of samples does: the value remains
+};
+
+struct search_verdict {
+    enum search_reason kind;
+    double samples, seconds, value;
+};
+
 // Called with what is done, 0..1, and what is under way; false ends the study.
 struct tradeoff_progress {
     bool (*report)(void *context, double fraction, const char *what);
@@ -144,6 +162,7 @@ struct tradeoff {
     struct setting base; // the file's own
     struct row *rows;    // of a whole study [0] is the file's own setting
     uint32_t count, capacity;
+    uint32_t tried; // by a search: rows, and what showed on a small picture what to draw
     uint32_t ground_truth_samples;
     uint64_t ground_truth_segments;  // rays that a sample of the ground truth might take
     bool ground_truth_cut;           // the budget lowered that, and some samples would have taken more
@@ -153,12 +172,13 @@ struct tradeoff {
     bool numeric_probed; // the numeric part was measured at the probes only
     bool hits_out;       // first hits were not compared
     uint32_t rounds;
-    uint32_t rows_left_out;  // for which the budget was too small
-    uint32_t pairs_left_out; // less promising ones, and those for which the budget was too small
-    uint32_t too_costly;     // settings that would have cost far more than the file's
-    bool cut_short;          // by the budget
-    bool is_recalled;        // measured by an earlier call
-    uint32_t part_pixels;    // at which the parts were measured
+    uint32_t rows_left_out;        // for which the budget was too small
+    uint32_t pairs_left_out;       // less promising ones, and those for which the budget was too small
+    uint32_t too_costly;           // settings that would have cost far more than the file's
+    bool cut_short;                // by the budget
+    bool is_recalled;              // measured by an earlier call
+    struct search_verdict verdict; // of a search for an error that found nothing
+    uint32_t part_pixels;          // at which the parts were measured
     double seconds, reference_seconds;
     char device[256];
     double noise;  // share of a time below which two are equal

@@ -17,12 +17,17 @@ struct world {
     double weight;    // error for each 1 of min_weight
     double darkness;  // error without shadows
     uint32_t deepest; // deeper paths are not longer
+    double rounding;  // of the format
 };
 
-static double error_of(const struct world *w, const struct setting *s) {
+// What remains of the error with all samples.
+static double floor_of(const struct world *w, const struct setting *s) {
     const double depth = s->max_depth < w->deepest ? w->depth * pow(0.5, s->max_depth) : 0;
-    return w->noise / sqrt(s->samples) + depth + w->weight * s->min_weight + (s->shadows ? 0 : w->darkness) +
-           (s->width < 64 ? 0.05 : 0);
+    return depth + w->weight * s->min_weight + (s->shadows ? 0 : w->darkness) + (s->width < 64 ? 0.05 : 0);
+}
+
+static double error_of(const struct world *w, const struct setting *s) {
+    return w->noise / sqrt(s->samples) + floor_of(w, s);
 }
 
 static double time_of(const struct world *w, const struct setting *s) {
@@ -49,8 +54,21 @@ static struct plan_search_input input_of(const struct world *w) {
 struct found {
     struct row rows[SEARCH_ROWS_MAX];
     uint32_t count;
-    double renders; // samples that were traced for rows, in frames of the file
+    uint32_t drawn; // samples of pictures: those of the row before go on where only samples differ
 };
+
+static uint32_t more_drawn(const struct found *f, const struct setting *next) {
+    struct setting same = *next;
+    uint32_t before = 0;
+    for (uint32_t i = f->count; i-- > 0 && !before;) {
+        same.samples = f->rows[i].setting.samples;
+        bool equal = same.samples != SEARCH_PROBE;
+        for (int knob = 0; knob < KNOB_COUNT; knob++)
+            equal &= !plan_differs(&same, &f->rows[i].setting, (enum knob)knob);
+        before = equal ? same.samples : 0;
+    }
+    return f->drawn + (next->samples > before ? next->samples - before : 0);
+}
 
 static void run(const struct world *w, const struct plan_search_input *input, struct found *f) {
     struct row next;
@@ -58,12 +76,17 @@ static void run(const struct world *w, const struct plan_search_input *input, st
     while (plan_search_next(input, f->rows, f->count, &next)) {
         assert_true(f->count < SEARCH_ROWS_MAX);
         for (uint32_t i = 0; i < f->count; i++)
-            assert_string_not_equal(f->rows[i].name, next.name);
+            assert_true((f->rows[i].setting.samples == SEARCH_PROBE) !=
+                            (next.setting.samples == SEARCH_PROBE) ||
+                        strcmp(f->rows[i].name, next.name) != 0);
         for (int i = 0; i < METRIC_COUNT; i++)
             next.value[i] = (double)NAN;
-        next.value[METRIC_MAE] = error_of(w, &next.setting);
+        next.floor = floor_of(w, &next.setting);
+        if (next.setting.samples != SEARCH_PROBE)
+            next.value[METRIC_MAE] = error_of(w, &next.setting);
         next.time_ms = time_of(w, &next.setting);
-        f->renders += (double)next.setting.samples / input->base.samples;
+        next.rounding = w->rounding;
+        f->drawn = more_drawn(f, &next.setting);
         f->rows[f->count++] = next;
     }
 }
@@ -72,7 +95,8 @@ static void run(const struct world *w, const struct plan_search_input *input, st
 static const struct row *cheapest(const struct found *f, double bound) {
     const struct row *best = NULL;
     for (uint32_t i = 0; i < f->count; i++)
-        if (f->rows[i].value[METRIC_MAE] <= bound && (!best || f->rows[i].time_ms < best->time_ms))
+        if (f->rows[i].choosable && f->rows[i].value[METRIC_MAE] <= bound &&
+            (!best || f->rows[i].time_ms < best->time_ms))
             best = &f->rows[i];
     return best;
 }
@@ -96,10 +120,10 @@ static void a_loose_bound_needs_one_sample(void **state) {
     assert_non_null(row);
     assert_int_equal(row->setting.samples, 1);
     assert_true(row->setting.max_depth < 8 && !row->setting.is_double && row->setting.shadows);
-    assert_true(f.renders < 4);
+    assert_true(f.drawn <= 4);
 }
 
-// Samples are doubled until the bound is kept, then a step between is tried.
+// Samples are added until the bound is kept, as many as are foretold, and each is drawn once.
 static void a_tight_bound_needs_more(void **state) {
     (void)state;
     const struct world w = {.noise = 0.02, .depth = 0.4, .weight = 1, .darkness = 0.5, .deepest = 8};
@@ -109,13 +133,29 @@ static void a_tight_bound_needs_more(void **state) {
     run(&w, &input, &f);
     const struct row *row = cheapest(&f, 0.0085);
     assert_non_null(row);
-    assert_int_equal(row->setting.samples, 8);
-    assert_true(f.renders < 25);
+    assert_true(row->setting.samples >= 7 && row->setting.samples <= 9);
+    assert_true(f.drawn <= row->setting.samples + 2);
     for (uint32_t i = 0; i < f.count; i++)
         assert_true(f.rows[i].setting.width == 64);
 }
 
-// What no number of samples can keep is not tried to its end.
+// Many times the file's samples, if that is what it takes, and hardly more of them than that.
+static void samples_go_on_until_the_bound_is_kept(void **state) {
+    (void)state;
+    const struct world w = {.noise = 0.1, .darkness = 0.5, .deepest = 2};
+    struct plan_search_input input = input_of(&w);
+    struct found f;
+    for (double samples = 100; samples < 3600; samples *= 1.37) {
+        input.error_most = 0.1 / sqrt(samples);
+        run(&w, &input, &f);
+        const struct row *row = cheapest(&f, input.error_most);
+        assert_non_null(row);
+        assert_true(row->setting.samples >= samples - 1 && row->setting.samples < 1.3 * samples);
+        assert_true(f.drawn <= row->setting.samples + 4);
+    }
+}
+
+// What no picture's samples can keep is not tried to its end, and it says what would.
 static void hopeless_bounds_are_given_up(void **state) {
     (void)state;
     const struct world w = {.noise = 0.02, .depth = 0, .weight = 0, .darkness = 0.5, .deepest = 2};
@@ -124,7 +164,29 @@ static void hopeless_bounds_are_given_up(void **state) {
     input.error_most = 1e-5;
     run(&w, &input, &f);
     assert_null(cheapest(&f, 1e-5));
-    assert_true(f.renders <= 1);
+    assert_true(f.drawn <= 16);
+    const struct search_verdict v = plan_search_verdict(&input, f.rows, f.count);
+    assert_int_equal(v.kind, SEARCH_SAMPLES);
+    assert_true(fabs(v.samples / 4e6 - 1) < 0.1 && v.seconds > 0);
+}
+
+static void what_is_out_of_reach_is_said(void **state) {
+    (void)state;
+    struct world w = {.noise = 0.02, .darkness = 0.5, .deepest = 2, .rounding = 0.001};
+    struct plan_search_input input = input_of(&w);
+    struct found f;
+    input.error_most = 0.0009;
+    run(&w, &input, &f);
+    assert_null(cheapest(&f, 0.0009));
+    assert_true(f.drawn <= 2);
+    assert_int_equal(plan_search_verdict(&input, f.rows, f.count).kind, SEARCH_FORMAT);
+    w.rounding = 0;
+    w.weight = 10; // of 0.001
+    run(&w, &input, &f);
+    assert_true(f.drawn == 0);
+    const struct search_verdict v = plan_search_verdict(&input, f.rows, f.count);
+    assert_int_equal(v.kind, SEARCH_REMAINS);
+    assert_true(fabs(v.value - 0.01) < 1e-9);
 }
 
 // The file's paths are too short: longer ones are tried, and only then.
@@ -135,15 +197,31 @@ static void longer_paths_where_the_file_cuts(void **state) {
     struct found f;
     input.error_most = 0.01;
     input.cut = true;
-    input.floor = 4 * pow(0.5, 8);
     run(&w, &input, &f);
     const struct row *row = cheapest(&f, 0.01);
     assert_non_null(row);
     assert_true(row->setting.max_depth > 8);
-    input.floor = 0;
-    run(&w, &input, &f);
+    const struct world short_paths = {.noise = 0.004, .darkness = 1, .deepest = 14};
+    run(&short_paths, &input, &f);
     for (uint32_t i = 0; i < f.count; i++)
         assert_true(f.rows[i].setting.max_depth <= 8);
+}
+
+// A scene may not ask for more than 64: no row does.
+static void paths_grow_no_longer_than_a_scene_may_ask_for(void **state) {
+    (void)state;
+    const struct world w = {.noise = 0.02, .depth = 1e12, .deepest = 100};
+    struct plan_search_input input = input_of(&w);
+    struct found f;
+    uint32_t deepest = 0;
+    input.base.max_depth = 12;
+    input.deepest = 12;
+    input.cut = true;
+    input.error_most = 1e-6;
+    run(&w, &input, &f);
+    for (uint32_t i = 0; i < f.count; i++)
+        deepest = f.rows[i].setting.max_depth > deepest ? f.rows[i].setting.max_depth : deepest;
+    assert_int_equal(deepest, 64);
 }
 
 static void smaller_pictures_only_where_allowed(void **state) {
@@ -205,16 +283,31 @@ static void safe_values_are_worse(void **state) {
     assert_true(fabs(plan_search_safe(METRIC_MAE, 0.1, 0.1) - 0.11) < 1e-12);
     assert_true(fabs(plan_search_safe(METRIC_SSIM, 0.9, 0.1) - 0.89) < 1e-12);
     assert_true(plan_search_safe(METRIC_PSNR, 40, 0.1) < 40);
-    for (uint32_t n = 1; n < 300; n++)
-        assert_true(plan_search_truth(n) >= 2 * n && plan_search_truth(n) >= 8);
+}
+
+// The reference's share of a search is bounded, whatever the picture and its paths.
+static void probes_are_small_where_paths_are_long(void **state) {
+    (void)state;
+    const struct setting base = {.width = 4000, .height = 3000};
+    for (double rays = 1; rays < 500; rays *= 2) {
+        const struct plan_search_probe p = plan_search_probe(&base, rays);
+        assert_true(p.samples >= 1 && rays * p.width * p.height * p.samples < 1.1e6);
+    }
+    const struct setting small = {.width = 48, .height = 32};
+    const struct plan_search_probe p = plan_search_probe(&small, 3);
+    assert_true(p.width == 48 && p.height == 32 && p.samples == 4);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_loose_bound_needs_one_sample),
         cmocka_unit_test(a_tight_bound_needs_more),
+        cmocka_unit_test(samples_go_on_until_the_bound_is_kept),
+        cmocka_unit_test(what_is_out_of_reach_is_said),
+        cmocka_unit_test(probes_are_small_where_paths_are_long),
         cmocka_unit_test(hopeless_bounds_are_given_up),
         cmocka_unit_test(longer_paths_where_the_file_cuts),
+        cmocka_unit_test(paths_grow_no_longer_than_a_scene_may_ask_for),
         cmocka_unit_test(smaller_pictures_only_where_allowed),
         cmocka_unit_test(as_many_samples_as_fit),
         cmocka_unit_test(shorter_paths_where_one_sample_takes_too_long),
