@@ -7,7 +7,6 @@
 #include "files/folder.h"
 #include "files/output.h"
 #include "files/sandbox.h"
-#include "files/work_tree.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -142,16 +141,6 @@ str files_find_config(struct files *files, str scene_path) {
             return STR("");
         above = path_folder(above);
     }
-}
-
-str files_scene_root(struct files *files, str scene_path) {
-    str config = files_find_config(files, scene_path);
-    str tree = config.len ? STR("") : files_work_tree(files, scene_path);
-    return tree.len ? tree : path_folder(config.len ? config : scene_path);
-}
-
-enum file_status files_add_scene_root(struct files *files, str scene_path) {
-    return files_add_root(files, files_scene_root(files, scene_path));
 }
 
 static enum file_status outside(void) {

@@ -5,7 +5,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Nobody else can put a `.git` above a scene (into /tmp, say), and so let it read what is around it.
+// Nobody else can put a `.git` above a scene (where everybody may write, say), and so let it read what is
+// around it.
 static bool is_own(const struct stat *info) {
 #ifdef __EMSCRIPTEN__
     (void)info; // there are no users
@@ -86,4 +87,14 @@ str files_outside_advice(struct files *files, str path, str target, struct files
                         "put an empty " FILES_CONFIG_NAME
                         " into '%.*s', below which scenes may then read; 'glint check --fix%s' does",
                         STR_ARG(common), marker->is_certain ? "" : "=all");
+}
+
+str files_scene_root(struct files *files, str scene_path) {
+    str config = files_find_config(files, scene_path);
+    str tree = config.len ? STR("") : files_work_tree(files, scene_path);
+    return tree.len ? tree : path_folder(config.len ? config : scene_path);
+}
+
+enum file_status files_add_scene_root(struct files *files, str scene_path) {
+    return files_add_root(files, files_scene_root(files, scene_path));
 }

@@ -3,8 +3,8 @@
 // A finding is known again by its file, its code, the words of its message and the text of its line: numbers
 // in the message do not count, nor does the number of the line, so that what is written above it does not
 // make it new. Of findings that are equal in all of these the baseline holds how many there are in one scene.
-// It holds errors and warnings in files, but not those of settings and options, nor that memory ran out, that a
-// file cannot be read, or that an include is missing or refused.
+// It holds errors and warnings in files, but not those of settings and options, nor that memory ran out, that
+// a file cannot be read, or that an include is missing or refused.
 //
 // The file is text, sorted, one entry a line: path (relative to the baseline's folder), code, number,
 // message, line and, if the finding is not in the scene itself, the scene that reads the file; separated by

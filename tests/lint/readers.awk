@@ -1,6 +1,6 @@
 # Of lines "T LINE" of readers.txt and what nm says of objects: readers that fuzzing does not reach.
 function is_door(name) {
-    return name ~ /^(files_read|stream_read|stream_read_file|spool_open|spool_read|folder_store_read|folder_store_open|cli_read_stream)$/ ||
+    return name ~ /^(files_read|files_read_given|files_read_found|stream_read|stream_read_file|spool_open|spool_read|folder_store_read|folder_store_open|cli_read_stream)$/ ||
            name ~ /^(__)?(read|readv|pread|pread64|fread|fgets|fgetc|getc|getline|getdelim|fscanf|mmap|mmap64|recv)(_unlocked)?(_chk)?$/
 }
 function wrong(line, what) {

@@ -18,7 +18,10 @@ clean() {
     shift
     valgrind --quiet --error-exitcode=99 --leak-check=full --show-leak-kinds=all --log-file=valgrind.txt \
         "$glint" "$@" >out.txt 2>&1
-    if [ $? -eq 99 ] || [ -s valgrind.txt ]; then
+    status=$?
+    # valgrind of Debian 12 does not know openat2 and says so; files are then opened in the other way (files/door.c).
+    sed -i '/unhandled amd64-linux syscall: 437$/,/bug_reports\.html\.$/d' valgrind.txt
+    if [ $status -eq 99 ] || [ -s valgrind.txt ]; then
         echo "FAIL $name"
         head -60 valgrind.txt
         failed=1

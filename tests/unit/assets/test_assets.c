@@ -143,8 +143,7 @@ static void files_outside_are_refused(void **state) {
     struct fixture *f = *state;
     scratch_write(&f->scratch, "secret.obj", TRIANGLE);
     assert_int_equal(symlink("../secret.obj", scratch_path(&f->scratch, "scene/link.obj")), 0);
-    expect(f, "../secret.obj", "the mesh '../secret.obj' lies outside the scene's folder: '",
-           "--fix=all");
+    expect(f, "../secret.obj", "the mesh '../secret.obj' lies outside the scene's folder: '", "--fix=all");
     expect(f, "link.obj", "the mesh 'link.obj' lies outside the scene's folder: '", "--asset-path ");
     struct assets_scene *s = begin_in(f, NULL);
     files_add_root(&s->files, str_from(f->scratch.folder));
