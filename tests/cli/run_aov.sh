@@ -87,7 +87,7 @@ expect 'not with a time' 2 - 'without --time' "$glint" render scene.yaml --aov d
 expect 'a file beside nothing' 2 - 'name one with -o' "$glint" render scene.yaml --aov depth -o -
 [ ! -e no.png ] && pass 'nothing was written' || fail 'nothing was written'
 expect 'help names them all' 0 'depth.normal.position.albedo.object.material.index.samples.error.cost' - "$glint" render --help
-expect 'a scene has none' 0 'glint render scene.yaml -o scene.exr --aov' - sh -c '"$0" explain aov | tr -s "\n " " "' "$glint"
+expect 'a scene has none' 0 'glint render scene.glint.yaml -o scene.exr --aov' - sh -c '"$0" explain aov | tr -s "\n " " "' "$glint"
 
 # A ball of radius 1 in a picture that shows 4 x 4 of an orthographic view: pi / 16 of its only pixel, to within three samples.
 cat >cover.yaml <<'S'
