@@ -129,6 +129,7 @@ static enum file_status read_scene(struct session *session, str *text) {
     alone.overlays = session->files.overlays;
     const enum file_status status =
         files_read_found(&alone, o->path, o->named_in, most, &session->arena, text);
+    session->files.system_error = alone.system_error;
     if (status == FILE_OK)
         files_identify(&session->files, o->path, &(struct file_read){0}); // it is a file that was read
     return status;

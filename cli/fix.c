@@ -35,6 +35,8 @@ static int write_file(struct cli *cli, const struct session_options *options, co
     files_add_scene_root(&files, options->path);
     if (options->found_in.len)
         files_add_root(&files, options->found_in);
+    if (file->is_new) // what marks a root lies above the one of now
+        files_add_root(&files, path_folder(file->canonical));
     for (uint32_t i = 0; i < options->asset_path_count; i++)
         files_add_root(&files, options->asset_paths[i]);
     return cli_write_named(cli, &files, file->path, file->text);

@@ -127,7 +127,7 @@ int cli_try_scene(struct cli *cli, const char *path) {
     if (cli_is_stream(cli, path))
         return CLI_OK;
     files_init(&files, &cli->arena);
-    const enum file_status status = files_read(&files, str_from(path), 0, &cli->arena, &nothing);
+    const enum file_status status = files_read_given(&files, str_from(path), 0, &cli->arena, &nothing);
     if (status == FILE_OK || status == FILE_TOO_LARGE)
         return CLI_OK;
     cli_error(cli, session_file_code(status), path, NULL, "the scene file %s",

@@ -156,6 +156,9 @@ int cli_enter_untrusted(struct cli *cli, const struct cli_command *command, cons
         allow(&a, a.files.roots.items[i], writes_roots(o, command));
     if (draws)
         allow_driver(&a);
+#ifdef __SANITIZE_ADDRESS__
+    allow(&a, STR("/proc"), false); // the search for leaks reads the process's threads there
+#endif
     const struct sandbox sandbox = {a.paths.items, a.paths.count, o->untrusted_seconds,
                                     (uint64_t)o->untrusted_megabytes << 20};
     memory_catch_untrusted();

@@ -94,16 +94,16 @@ done
 [ -f scene.side.pfm ] && pass 'four pictures' || fail 'four pictures'
 
 # ---- what fails
-expect 'a scene that is not there' 1 '' 'failed: none.yaml' "$glint" render scene.yaml none.yaml other.yaml -o 'k.%d.png'
+expect 'a scene that is not there' 3 '' 'failed: none.yaml' "$glint" render scene.yaml none.yaml other.yaml -o 'k.%d.png'
 also 'is counted' '' '1 of 3 pictures failed$'
 [ -f k.0.png ] && [ ! -e k.1.png ] && [ -f k.2.png ] && pass 'the rest are there' || fail 'the rest are there'
-expect 'or ends it' 1 '' '1 were not begun' "$glint" render scene.yaml none.yaml other.yaml -o 'l.%d.png' --keep-going=no
+expect 'or ends it' 3 '' '1 were not begun' "$glint" render scene.yaml none.yaml other.yaml -o 'l.%d.png' --keep-going=no
 [ -f l.0.png ] && [ ! -e l.2.png ] && pass 'nothing after it' || fail 'nothing after it'
 expect 'an impossible frame' 1 '' 'failed: scene.yaml, frame 2' "$glint" render scene.yaml --frames 0..2 --set 'cameras.front.fov={60+60*frame}' -o 'm.%d.png'
 [ -f m.1.png ] && [ ! -e m.2.png ] && pass 'leaves the others' || fail 'leaves the others'
 
 mkdir folder.1.png
-expect 'a file that cannot be written' 1 '' 'folder.1.png:1:1: error: cannot be written' "$glint" render scene.yaml other.yaml scene.yaml -o 'folder.%d.png'
+expect 'a file that cannot be written' 3 '' 'folder.1.png:1:1: error: cannot be written' "$glint" render scene.yaml other.yaml scene.yaml -o 'folder.%d.png'
 [ -f folder.0.png ] && [ -f folder.2.png ] && pass 'leaves the others too' || fail 'leaves the others too'
 
 # ---- films
