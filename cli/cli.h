@@ -252,8 +252,10 @@ const char *cli_default_picture(struct cli *cli, const char *scene);
 int cli_print(struct cli *cli, str text);
 // Writes a whole file (or "-"); CLI_OK or CLI_FILE with an error printed.
 int cli_write(struct cli *cli, const char *path, str bytes);
-// The same for what was made in memory, called `what` in messages: if memory ran out, CLI_SCENE with an error
-// printed.
+// Reports that, and returns its exit code: CLI_FILE, or CLI_PIPE for a standard output that nobody reads.
+int cli_not_written(struct cli *cli, const char *path, int error);
+// The same as cli_write for what was made in memory, called `what` in messages: if memory ran out, CLI_FILE
+// with an error printed.
 int cli_write_made(struct cli *cli, const char *path, const struct strbuf *made, const char *what);
 // The same for a file that something other than the user has named: below a root (files.h). CLI_REFUSED
 // otherwise.

@@ -170,15 +170,18 @@ struct session_options cli_session_options(const struct cli *cli, const char *pa
                                     .pixels = o->skip_pixels ? ASSETS_SKIP_PIXELS : ASSETS_KEEP_PIXELS};
 }
 
-int cli_write(struct cli *cli, const char *path, str bytes) {
-    int error = output_whole(path, bytes.ptr, bytes.len);
-    if (error == 0)
-        return CLI_OK;
-    if (error == EPIPE && strcmp(path, "-") == 0)
+int cli_not_written(struct cli *cli, const char *path, int error) {
+    const bool is_stdout = strcmp(path, "-") == 0;
+    if (error == EPIPE && is_stdout)
         return CLI_PIPE; // 'glint ... | head' is no mistake
-    cli_error(cli, DIAG_OUTPUT, strcmp(path, "-") == 0 ? "standard output" : path, NULL,
-              "cannot be written: %s", strerror(error));
+    cli_error(cli, DIAG_OUTPUT, is_stdout ? "standard output" : path, NULL, "cannot be written: %s",
+              strerror(error));
     return CLI_FILE;
+}
+
+int cli_write(struct cli *cli, const char *path, str bytes) {
+    const int error = output_whole(path, bytes.ptr, bytes.len);
+    return error ? cli_not_written(cli, path, error) : CLI_OK;
 }
 
 int cli_write_named(struct cli *cli, struct files *files, str path, str bytes) {
@@ -190,13 +193,11 @@ int cli_write_named(struct cli *cli, struct files *files, str path, str bytes) {
             return CLI_OK;
     }
     const char *name = arena_copy(&cli->arena, path).ptr;
-    if (status == FILE_OUTSIDE || status == FILE_NOT_REGULAR)
-        cli_error(cli, session_file_code(status), name, NULL, "is not written: it %s",
-                  status == FILE_OUTSIDE ? "leads out of the folder" : file_status_text(files, status));
-    else
-        cli_error(cli, DIAG_OUTPUT, name, NULL, "cannot be written: %s",
-                  strerror(output.error ? output.error : files->system_error));
-    return status == FILE_OUTSIDE || status == FILE_NOT_REGULAR ? CLI_REFUSED : CLI_FILE;
+    if (status != FILE_OUTSIDE && status != FILE_NOT_REGULAR)
+        return cli_not_written(cli, name, output.error ? output.error : files->system_error);
+    cli_error(cli, session_file_code(status), name, NULL, "is not written: it %s",
+              status == FILE_OUTSIDE ? "leads out of the folder" : file_status_text(files, status));
+    return CLI_REFUSED;
 }
 
 int cli_try_output(struct cli *cli, const char *path) {
@@ -207,8 +208,7 @@ int cli_try_output(struct cli *cli, const char *path) {
         output_abandon(&probe);
         return CLI_OK;
     }
-    cli_error(cli, DIAG_OUTPUT, path, NULL, "cannot be written: %s", strerror(probe.error));
-    return CLI_FILE;
+    return cli_not_written(cli, path, probe.error);
 }
 
 int cli_write_made(struct cli *cli, const char *path, const struct strbuf *made, const char *what) {
@@ -216,7 +216,7 @@ int cli_write_made(struct cli *cli, const char *path, const struct strbuf *made,
         return cli_write(cli, path, strbuf_view(made));
     cli_error(cli, DIAG_OUT_OF_MEMORY, strcmp(path, "-") == 0 ? "standard output" : path, NULL,
               "not enough memory for %s", what);
-    return CLI_SCENE;
+    return CLI_FILE;
 }
 
 int cli_print(struct cli *cli, str text) {

@@ -63,7 +63,7 @@ static void copy(void *context) {
     if (status != FILE_OK)
         fail(c->error, "'%.*s' %s", STR_ARG(c->file->path), file_status_text(&c->session->files, status));
     else if (wrong)
-        fail(c->error, "'%s' cannot be written: %s", c->path, strerror(wrong));
+        fail(c->error, "'%.*s' cannot be written: %s", STR_ARG(c->file->target), strerror(wrong));
 }
 
 static bool write_file(struct session *session, const struct pack_file *file, const char *folder,
@@ -72,7 +72,7 @@ static bool write_file(struct session *session, const struct pack_file *file, co
     if (snprintf(path, sizeof path, "%s/%.*s", folder, STR_ARG(file->target)) >= (int)sizeof path)
         return fail(error, "the path of '%.*s' is too long", STR_ARG(file->target));
     if (!make_folders(path, strlen(folder) + 1))
-        return fail(error, "cannot make the folder of '%s': %s", path, strerror(errno));
+        return fail(error, "cannot make the folder of '%.*s': %s", STR_ARG(file->target), strerror(errno));
     struct copying copying = {.session = session, .file = file, .path = path, .error = error};
     struct arena *arenas[] = {&copying.arena, &session->arena, NULL};
     arena_init(&copying.arena, SIZE_MAX / 2);

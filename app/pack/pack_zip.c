@@ -24,11 +24,11 @@ enum {
 };
 
 // Where minizip or the system lacked memory, errno says so.
-static void fail(struct pack_error *error, const struct output *output, const char *what, const char *path) {
+static void fail(struct pack_error *error, const struct output *output, const char *what, str path) {
     int reason = output->error ? output->error : errno;
     if (reason == ENOMEM)
         heap_exhausted(0);
-    snprintf(error->text, sizeof error->text, "%s '%s': %s", what, path,
+    snprintf(error->text, sizeof error->text, "%s '%.*s': %s", what, STR_ARG(path),
              reason ? strerror(reason) : "the archive cannot be written");
 }
 
@@ -120,21 +120,21 @@ static void read_and_put(void *context) {
     files_init(&files, &p->arena);
     enum file_status status = files_read_given(&files, path, UINT64_MAX / 4, &p->arena, &bytes);
     if (status != FILE_OK) {
-        snprintf(p->error->text, sizeof p->error->text, "'%s' %s", path.ptr,
+        snprintf(p->error->text, sizeof p->error->text, "'%.*s' %s", STR_ARG(p->target),
                  file_status_text(&files, status));
         return;
     }
     errno = 0;
     p->good = put(p->zip, arena_copy(&p->arena, p->target).ptr, bytes);
     if (!p->good)
-        fail(p->error, p->output, "cannot pack", path.ptr);
+        fail(p->error, p->output, "cannot pack", p->target);
 }
 
 static bool add_file(struct packing packing) {
     arena_init(&packing.arena, SIZE_MAX / 2);
     if (arena_guarded(&packing.arena, read_and_put, &packing) != ARENA_FAULT_NONE) {
         errno = ENOMEM;
-        fail(packing.error, packing.output, "cannot pack", packing.folder);
+        fail(packing.error, packing.output, "cannot pack", packing.target);
     }
     arena_finish(&packing.arena);
     return packing.good;
@@ -146,7 +146,7 @@ bool pack_zip(const struct pack_plan *plan, const char *folder, const char *out,
     zlib_filefunc64_def functions = {open_output, read_nothing, write_output, tell_output,
                                      seek_output, keep_open,    error_of,     &output};
     if (!output_open(&output, out)) {
-        fail(error, &output, "cannot write", out);
+        fail(error, &output, "cannot write", str_from(out));
         return false;
     }
     errno = 0;
@@ -159,13 +159,13 @@ bool pack_zip(const struct pack_plan *plan, const char *folder, const char *out,
                                                                           .target = plan->items[i].target,
                                                                           .error = error});
     if (!zip || (zipClose(zip, NULL) != ZIP_OK && good)) {
-        fail(error, &output, "cannot write", out);
+        fail(error, &output, "cannot write", str_from(out));
         good = false;
     }
     if (!good) {
         output_abandon(&output);
     } else if (!output_commit(&output)) {
-        fail(error, &output, "cannot write", out);
+        fail(error, &output, "cannot write", str_from(out));
         good = false;
     }
     return good;

@@ -126,9 +126,7 @@ static int judge_files(struct batch_run *run, const struct batch_made *made) {
         if (made->files[i].failed)
             status = no_memory(run, "the picture");
         if (made->errors[i])
-            cli_error(run->cli, DIAG_OUTPUT, made->job->paths[i], NULL, "cannot be written: %s",
-                      strerror(made->errors[i]));
-        status = made->errors[i] ? CLI_FILE : status;
+            status = cli_not_written(run->cli, made->job->paths[i], made->errors[i]);
     }
     return status;
 }

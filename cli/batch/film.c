@@ -74,11 +74,7 @@ static bool is_stdout(const struct film *film) {
 }
 
 static int cannot_write(struct film *film, int error) {
-    if (error == EPIPE && is_stdout(film))
-        return CLI_PIPE;
-    cli_error(film->cli, DIAG_OUTPUT, is_stdout(film) ? "standard output" : film->path, NULL,
-              "cannot be written: %s", strerror(error));
-    return CLI_FILE;
+    return cli_not_written(film->cli, film->path, error);
 }
 
 static int put_y4m(struct film *film, str bytes) {

@@ -61,9 +61,19 @@ static void tell(const struct cli *cli, const struct farm_plan *plan) {
         fprintf(stderr, "; with --folder DIR, 'glint farm status DIR' says which are done\n");
 }
 
+static int write_script(struct cli *cli, const struct farm_plan *plan) {
+    struct strbuf script;
+    strbuf_init(&script);
+    farm_write_script(cli, plan, &script);
+    const int status = script.failed  ? cli_write_made(cli, "-", &script, "the script")
+                       : plan->folder ? farm_save(cli, plan, strbuf_view(&script))
+                                      : cli_print(cli, strbuf_view(&script));
+    strbuf_finish(&script);
+    return status;
+}
+
 int cmd_farm(struct cli *cli) {
     struct farm_plan plan = {0};
-    struct strbuf script;
     if (strcmp(cli->operands[0], "status") == 0)
         return status_of(cli);
     const int engine = engine_of(cli);
@@ -81,14 +91,9 @@ int cmd_farm(struct cli *cli) {
         status = choose_tasks(cli, &plan);
     if (status == CLI_OK)
         status = pack(cli, &plan);
-    if (status != CLI_OK)
-        return status;
-    strbuf_init(&script);
-    farm_write_script(cli, &plan, &script);
-    status = script.failed ? cli_write_made(cli, "-", &script, "the script")
-             : plan.folder ? farm_save(cli, &plan, strbuf_view(&script))
-                           : cli_print(cli, strbuf_view(&script));
-    strbuf_finish(&script);
+    if (status == CLI_OK)
+        status = write_script(cli, &plan);
+    farm_end(&plan, status);
     if (status == CLI_OK)
         tell(cli, &plan);
     return status;

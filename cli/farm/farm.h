@@ -8,6 +8,7 @@
 #define GLINT_CLI_FARM_FARM_H
 
 #include "cli/cli.h"
+#include "files/temporary.h"
 
 enum farm_engine {
     FARM_SLURM,
@@ -35,13 +36,16 @@ struct farm_plan {
     const char *folder; // of plan, script and logs; NULL: the script goes to standard output
     struct farm_pilot pilot;
     bool is_measured;
+    struct temporary made; // the folder, where it was not there before
 };
 
 // farm_plan.c: the plan that the command line asks for, but for its chunk. CLI_OK, or an exit code with
 // the mistake reported.
 int farm_plan_make(struct cli *cli, struct farm_plan *plan);
 // farm_file.c: whether the folder can take the plan; makes it. An exit code.
-int farm_begin(struct cli *cli, const struct farm_plan *plan);
+int farm_begin(struct cli *cli, struct farm_plan *plan);
+// The folder stays, or, after an error, goes if farm_begin made it. The plan stays where it is between them.
+void farm_end(struct farm_plan *plan, int status);
 // farm_pilot.c: whether the scene can be rendered so, without a device. An exit code.
 int farm_check(struct cli *cli, struct farm_plan *plan);
 // Renders small pictures of some frames, and chooses the chunk. An exit code.

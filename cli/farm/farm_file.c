@@ -1,6 +1,7 @@
 // The plan as a file of its folder: lines of a word and its value, as the head of a part has them.
 #include "app/frames/frame_name.h"
 #include "cli/farm/farm.h"
+#include "files/output.h"
 #include "files/stream.h"
 
 #include <errno.h>
@@ -30,14 +31,7 @@ static void write_plan(const struct farm_plan *plan, struct strbuf *out) {
         strbuf_format(out, "part %s\n", plan->part);
 }
 
-static int make_folder(struct cli *cli, const char *path) {
-    if (mkdir(path, 0777) == 0 || errno == EEXIST)
-        return CLI_OK;
-    cli_error(cli, DIAG_OUTPUT, path, NULL, "the folder cannot be made: %s", strerror(errno));
-    return CLI_FILE;
-}
-
-int farm_begin(struct cli *cli, const struct farm_plan *plan) {
+int farm_begin(struct cli *cli, struct farm_plan *plan) {
     struct stat there;
     if (!plan->folder)
         return CLI_OK;
@@ -48,18 +42,42 @@ int farm_begin(struct cli *cli, const struct farm_plan *plan) {
         diag_help(&cli->sink, "choose another folder, or overwrite it with --force");
         return status;
     }
-    const int status = make_folder(cli, plan->folder);
-    return status == CLI_OK ? make_folder(cli, in_folder(cli, plan->folder, "log")) : status;
+    if (mkdir(plan->folder, 0777) == 0) {
+        temporary_note(&plan->made, plan->folder);
+    } else if (errno != EEXIST) {
+        cli_error(cli, DIAG_OUTPUT, plan->folder, NULL, "the folder cannot be made: %s", strerror(errno));
+        return CLI_FILE;
+    }
+    return CLI_OK;
 }
 
+void farm_end(struct farm_plan *plan, int status) {
+    if (plan->made.path && status != CLI_OK)
+        temporary_remove(plan->folder);
+    temporary_forget(&plan->made);
+}
+
+// Both files, or neither.
 int farm_save(struct cli *cli, const struct farm_plan *plan, str script) {
-    const char *path = in_folder(cli, plan->folder, PLAN_NAME);
+    const char *paths[] = {in_folder(cli, plan->folder, farm_script_name(plan->engine)),
+                           in_folder(cli, plan->folder, PLAN_NAME)};
+    struct output outputs[2] = {{.fd = -1}, {.fd = -1}};
     struct strbuf text;
-    int status = cli_write(cli, in_folder(cli, plan->folder, farm_script_name(plan->engine)), script);
+    int status = CLI_OK;
     strbuf_init(&text);
     write_plan(plan, &text);
-    if (status == CLI_OK)
-        status = cli_write_made(cli, path, &text, "the plan");
+    const str texts[] = {script, strbuf_view(&text)};
+    for (int i = 0; i < 2 && status == CLI_OK; i++) {
+        if (output_open(&outputs[i], paths[i]))
+            output_write(&outputs[i], texts[i].ptr, texts[i].len);
+        if (text.failed || outputs[i].error)
+            status = cli_not_written(cli, paths[i], text.failed ? ENOMEM : outputs[i].error);
+    }
+    for (int i = 0; i < 2; i++)
+        if (status != CLI_OK)
+            output_abandon(&outputs[i]);
+        else if (!output_commit(&outputs[i]))
+            status = cli_not_written(cli, paths[i], outputs[i].error);
     strbuf_finish(&text);
     return status;
 }

@@ -33,13 +33,9 @@ static bool put_over(void *context, uint64_t at, const void *bytes, size_t count
 }
 
 static int fail(struct cli *cli, const char *path, int error) {
-    if (error == EPIPE && strcmp(path, "-") == 0)
-        return CLI_PIPE; // 'glint ... | head' is no mistake
-    if (error == 0)
-        cli_error(cli, DIAG_OUT_OF_MEMORY, path, NULL, "not enough memory to encode the picture");
-    else
-        cli_error(cli, DIAG_OUTPUT, strcmp(path, "-") == 0 ? "standard output" : path, NULL,
-                  "cannot be written: %s", strerror(error));
+    if (error)
+        return cli_not_written(cli, path, error);
+    cli_error(cli, DIAG_OUT_OF_MEMORY, path, NULL, "not enough memory to encode the picture");
     return CLI_FILE;
 }
 

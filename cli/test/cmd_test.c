@@ -8,9 +8,10 @@
 static int bless(struct test_run *run, struct test_case *test, const struct test_made *made) {
     struct cli *cli = run->cli;
     if (test->is_foreign && !cli->options.force) {
+        const str why = test->is_unread ? test->reason : STR("what is there is not a picture");
         cli_error(cli, DIAG_OUTPUT, test->picture.ptr, "to replace it all the same: --force",
-                  "is not written: what is there is not a picture");
-        return CLI_REFUSED;
+                  "is not written: %.*s", STR_ARG(why));
+        return test->is_unread ? CLI_FILE : CLI_REFUSED;
     }
     const int status = cli_write_named(cli, &run->files, test->picture, strbuf_view(&made->file));
     test->is_written = status == CLI_OK;

@@ -42,6 +42,7 @@ struct test_case {
     struct test_settings settings;
     bool is_there;   // the reference, when the cases were listed
     bool is_foreign; // what is there is not a picture, not even a damaged one
+    bool is_unread;  // nor is that known: the system did not let it be read, as the reason says
     enum image_format format;
     // What became of it.
     enum test_state state;

@@ -189,6 +189,7 @@ static const char *read_reference(struct judging *j) {
     const enum file_status read = files_read(
         &j->run->files, j->test->picture, cli->options.limits.value[LIMIT_IMAGE_BYTES], &j->arena, &j->bytes);
     j->test->is_foreign = read != FILE_OK;
+    j->test->is_unread = read == FILE_UNREADABLE;
     if (read != FILE_OK)
         return arena_copy(&cli->arena, str_from(file_status_text(&j->run->files, read))).ptr;
     const char *fault = picture_file_decode(j->bytes, cli->options.limits.value[LIMIT_IMAGE_MEMORY],
