@@ -296,12 +296,13 @@ static void put_changed(const struct check *check, struct strbuf *out) {
 }
 
 // "glint: 5 errors, 7 warnings in 31 files; 26 clean". One finding in one file says that itself, and where
-// all is well there is nothing to say; but what --changed left out nobody sees.
+// all is well there is nothing to say; but what --changed left out nobody sees, nor that all is ignored.
 static void put_closing(const struct check *check, struct strbuf *out) {
     const struct sums sums = sum_up(check);
     const uint32_t findings = sums.errors + sums.warnings + sums.notes;
     const uint32_t files = check->files.count;
-    bool tells = findings > 1 || (findings == 1 && files > 1);
+    const bool nothing = files && sums.ignored == files;
+    bool tells = findings > 1 || (findings == 1 && files > 1) || nothing;
     if (check->cli->options.quiet || !(tells || check->changed))
         return;
     strbuf_cstr(out, "glint: ");
@@ -309,7 +310,10 @@ static void put_closing(const struct check *check, struct strbuf *out) {
         put_changed(check, out);
     if (check->changed && files)
         strbuf_cstr(out, ": ");
-    if (files)
+    if (nothing)
+        strbuf_format(out, "nothing was checked: 'ignore' leaves out %u scene%s", files,
+                      files == 1 ? "" : "s");
+    else if (files)
         report_counts(out, sums.errors, sums.warnings, sums.notes);
     if (files > 1 && findings) {
         strbuf_format(out, " in %u files", files);

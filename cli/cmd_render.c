@@ -258,7 +258,9 @@ static int render_cameras(struct render_job *job) {
     if (fits != CLI_OK)
         return fits;
     uint32_t end = job->all_cameras ? cameras->count : first + 1;
-    fits = leave_done(job, &first, end);
+    fits = render_judge_defaults(job, first, end);
+    if (fits == CLI_OK)
+        fits = leave_done(job, &first, end);
     if (fits != CLI_OK || first == end)
         return fits;
     return exact ? render_by_reference(job, first, end) : render_by_device(job, first, end);

@@ -52,6 +52,8 @@ struct render_job {
 
 // Where a camera's picture goes: the path of one of the outputs.
 const char *render_output_of(struct render_job *job, const struct cli_output *output, uint32_t camera);
+// Whether names that the user did not give stay in the current folder, through these cameras. An exit code.
+int render_judge_defaults(struct render_job *job, uint32_t first, uint32_t end);
 // A path without its ending.
 str render_stem_of(str path);
 // Reads the outputs of the command line into the job; CLI_OK, or CLI_USAGE with the mistake reported.

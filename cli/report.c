@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 bool cli_is_stream(const struct cli *cli, const char *path) {
@@ -221,6 +222,21 @@ int cli_write_made(struct cli *cli, const char *path, const struct strbuf *made,
 
 int cli_print(struct cli *cli, str text) {
     return cli_write(cli, "-", text);
+}
+
+int cli_judge_default(struct cli *cli, const char *path) {
+    struct files files;
+    struct stat there;
+    str root;
+    files_init(&files, &cli->arena);
+    const bool leads_nowhere = lstat(path, &there) == 0 && stat(path, &there) != 0;
+    if (files_add_root(&files, STR(".")) == FILE_OK &&
+        (leads_nowhere || files_place(&files, str_from(path), &root) == FILE_OUTSIDE)) {
+        cli_error(cli, DIAG_FILE_OUTSIDE, path, "if that is meant, name the file with -o",
+                  "is not written: it leads out of the folder");
+        return CLI_REFUSED;
+    }
+    return CLI_OK;
 }
 
 const char *cli_default_picture(struct cli *cli, const char *scene) {

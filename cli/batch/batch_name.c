@@ -106,16 +106,21 @@ static int judge_names(struct batch *batch, uint32_t output_count) {
     const char **all = heap_array(count ? count : 1, sizeof *all);
     const char *twice = NULL;
     uint32_t n = 0;
+    int status = CLI_OK;
     if (!all)
         return CLI_FILE;
     for (uint32_t i = 0; i < batch->jobs.count; i++)
-        for (uint32_t k = 0; k < output_count; k++)
-            all[n++] = batch->jobs.items[i].paths[k];
+        for (uint32_t k = 0; k < output_count; k++) {
+            all[n] = batch->jobs.items[i].paths[k];
+            if (status == CLI_OK && !cli->options.outputs.items[k].arg)
+                status = cli_judge_default(cli, all[n]);
+            n++;
+        }
     qsort(all, n, sizeof *all, compare);
     for (uint32_t i = 1; i < n && !twice; i++)
         twice = strcmp(all[i - 1], all[i]) == 0 ? all[i] : NULL;
     free(all);
-    return twice ? refuse_twice(batch, &cli->options.outputs.items[0], twice) : CLI_OK;
+    return twice ? refuse_twice(batch, &cli->options.outputs.items[0], twice) : status;
 }
 
 int batch_name(struct batch *batch) {

@@ -149,6 +149,9 @@ int cmd_import(struct cli *cli) {
         return CLI_USAGE;
     struct import_job job = {.cli = cli, .session = &session};
     job.out = cli->options.output ? cli->options.output : default_output(cli);
+    const int named = cli->options.output ? CLI_OK : cli_judge_default(cli, job.out);
+    if (named != CLI_OK)
+        return named;
     convert_spelling_of(str_from(job.out), &spelling);
     job.spelling = spelling == CONVERT_XML    ? IMPORT_XML
                    : spelling == CONVERT_JSON ? IMPORT_JSON

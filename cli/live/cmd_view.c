@@ -127,6 +127,8 @@ int cmd_view(struct cli *cli) {
     uint32_t count;
     v.output = cli->options.output ? cli->options.output : cli_default_picture(cli, cli->operands[0]);
     int status = refuse(cli);
+    if (status == CLI_OK && !cli->options.output)
+        status = cli_judge_default(cli, v.output);
     if (status != CLI_OK)
         return status;
     if (!image_format_of_path(str_from(v.output), IMAGE_WRITTEN, &v.format))

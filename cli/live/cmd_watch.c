@@ -247,6 +247,8 @@ int cmd_watch(struct cli *cli) {
     struct watching w = {.cli = cli, .changed = cli->begun};
     w.output = cli->options.output ? cli->options.output : cli_default_picture(cli, scene);
     int status = refuse(cli, w.output);
+    if (status == CLI_OK && !cli->options.output)
+        status = cli_judge_default(cli, w.output);
     if (status != CLI_OK)
         return status;
     image_format_of_path(str_from(w.output), IMAGE_WRITTEN, &w.format);

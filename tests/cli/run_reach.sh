@@ -146,6 +146,18 @@ for kind in pipe link; do
     [ "$(find cache -type f | wc -l)" -ge "$(wc -l <entries.txt)" ] && pass "and is kept" || fail "the entry is not kept"
 done
 
+# Names of pictures that nobody gave: the scene's, through a link that a repository brings.
+ln -s "$work/home/evil.png" repo/hall.png
+expect "a default name" 5 - 'hall.png:1:1: error: is not written: it leads out of the folder .E602.' \
+    sh -c "cd repo && '$glint' render hall.glint.yaml -q"
+outside "a default name"
+rm repo/hall.png
+ln -s pictures/own.png repo/hall.png
+expect "a link within" 5 - E602 sh -c "cd repo && '$glint' render hall.glint.yaml -q"
+: >repo/pictures/own.png
+expect "that leads to a file" 0 - - sh -c "cd repo && '$glint' render hall.glint.yaml -q"
+rm repo/hall.png repo/pictures/own.png
+
 # --untrusted: one status for what is refused, whatever it is.
 printf 'glint: 1\ninclude: [../home/secret]\n' >repo/bad.glint.yaml
 expect "check: an include outside" 1 '' E602 "$glint" check repo
@@ -163,6 +175,14 @@ expect "format" 0 '' - "$glint" format repo --untrusted
 if env -u GLINT_DEVICE "$glint" render repo/hall.glint.yaml -q -o three.png 2>err.txt; then
     expect "no program is started" 5 '' 'ffmpeg' env -u GLINT_DEVICE "$glint" render repo/hall.glint.yaml \
         --frames 0..3 --set 'cameras.front.position=[0,0,{4+frame}]' --untrusted -o film.mp4
+    ln -s "$work/home/new.png" repo/hall.0001.png
+    ln -s "$work/home/evil.png" repo/hall.png
+    expect "names of frames" 5 - 'hall.0001.png:1:1: error: is not written' sh -c "cd repo && env -u GLINT_DEVICE '$glint' render \
+        hall.glint.yaml -q --frames 0..2 --set 'cameras.front.position=[0,0,{4+frame}]'"
+    outside "names of frames"
+    expect "watched" 5 - E602 sh -c "cd repo && env -u GLINT_DEVICE '$glint' render hall.glint.yaml --watch"
+    outside "watched"
+    rm repo/hall.png repo/hall.0001.png
     expect "a driver reads what it needs" 0 '' - env -u GLINT_DEVICE "$glint" render repo/hall.glint.yaml --untrusted -q -o four.png
     cmp -s three.png four.png && pass "and draws the same" || fail "--untrusted changes the device's picture"
 else

@@ -243,7 +243,7 @@ tells "a severity by option" 1 'error: .*\[W401\]' "$glint" check w.glint.yaml -
 tells "a code ignored" 0 - "$glint" check w.glint.yaml --ignore Wxxx --ignore W401 --only W401
 tells "off" 0 - "$glint" check w.glint.yaml --severity W401=off --only W401
 tells "only others" 0 - "$glint" check w.glint.yaml --only W601
-tells "a path ignored" 0 - "$glint" check bad.glint.yaml --ignore 'bad*'
+tells "a path ignored" 0 "^glint: nothing was checked: 'ignore' leaves out 1 scene$" "$glint" check bad.glint.yaml --ignore 'bad*'
 tells "a path of another folder" 1 E301 "$glint" check bad.glint.yaml --ignore 'tree/bad*'
 tells "errors are not silenced" 2 "errors cannot be silenced" "$glint" check bad.glint.yaml --ignore E301
 tells "errors pass --only" 1 'E301' "$glint" check bad.glint.yaml --only W401
