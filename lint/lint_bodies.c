@@ -10,18 +10,13 @@ const struct ir_material *lint_material(const struct lint *lint, const struct li
     return &lint->scene->assets->materials[body->is->materials[group]];
 }
 
-double lint_gain(const struct ir_material *material) {
-    const struct ir_weights *w = &material->albedo;
-    return material->fresnel ? fmax(w->reflection, w->refraction) : w->reflection + w->refraction;
-}
-
 static void weigh(const struct lint *lint, struct lint_body *body) {
     body->is_opaque = true;
     for (uint32_t i = 0; i < body->is->group_count; i++) {
         const struct ir_weights *w = &lint_material(lint, body, i)->albedo;
         body->reflection = fmax(body->reflection, w->reflection);
         body->refraction = fmax(body->refraction, w->refraction);
-        body->gain = fmax(body->gain, lint_gain(lint_material(lint, body, i)));
+        body->gain = fmax(body->gain, scene_gain(lint_material(lint, body, i)));
         body->is_opaque = body->is_opaque && !(w->refraction > 0);
     }
 }

@@ -77,8 +77,6 @@ static inline bool lint_is_inside(struct lint *lint, const struct lint_body *bod
 // The material of one of a body's groups.
 const struct ir_material *lint_material(const struct lint *lint, const struct lint_body *body,
                                         uint32_t group);
-// How much light a material passes on at most, as a share of what it receives: Fresnel's shares add up to 1.
-double lint_gain(const struct ir_material *material);
 // The triangles of a body that has some without a mesh; their number, 0 of other bodies.
 enum {
     LINT_FLAT_TRIANGLES = 2

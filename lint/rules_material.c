@@ -87,7 +87,7 @@ static const struct ir_material *strongest(const struct lint *lint, const struct
     const struct ir_material *found = NULL;
     for (uint32_t g = 0; g < body->is->group_count; g++) {
         const struct ir_material *material = lint_material(lint, body, g);
-        if (!found || lint_gain(material) > lint_gain(found))
+        if (!found || scene_gain(material) > scene_gain(found))
             found = material;
     }
     return found;

@@ -80,3 +80,32 @@ void scene_build(const struct ir_scene *ir, const struct assets *assets, struct 
     scene_build_textures(out, arena);
     scene_build_bodies(out, arena);
 }
+
+// ---- what surfaces send on
+
+// Weights that are written to add up to 1 may round to a little more.
+static const double GAIN_ROUNDING = 1e-9;
+
+double scene_gain(const struct ir_material *material) {
+    const struct ir_weights *w = &material->albedo;
+    return material->fresnel ? fmax(w->reflection, w->refraction) : w->reflection + w->refraction;
+}
+
+bool scene_amplifies(const struct scene *scene) {
+    double first = 0, second = 0; // the two largest, one of each body
+    for (uint32_t i = 0; i < scene->body_count; i++) {
+        const struct scene_body *body = &scene->bodies[i];
+        double gain = 0, refraction = 0;
+        for (uint32_t g = 0; g < body->group_count; g++) {
+            const struct ir_material *material = &scene->assets->materials[body->materials[g]];
+            gain = fmax(gain, scene_gain(material));
+            refraction = fmax(refraction, material->albedo.refraction);
+        }
+        // Within a mesh, and inside glass, light comes back to the surface that it left.
+        if (gain > 1 + GAIN_ROUNDING && (body->shape == SCENE_MESH || (body->closed && refraction > 0)))
+            return true;
+        second = fmax(second, fmin(gain, first));
+        first = fmax(first, gain);
+    }
+    return first * second > 1 + GAIN_ROUNDING;
+}

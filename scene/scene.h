@@ -164,6 +164,14 @@ void scene_coordinates(const struct scene_body *body, uint32_t triangle, struct 
 // Whether any material that a body has shows an image.
 bool scene_body_has_image(const struct scene *scene, const struct scene_body *body);
 
+// ---- what surfaces send on
+
+// How much light a material passes on at most, as a share of what it receives: Fresnel's shares add up to 1.
+double scene_gain(const struct ir_material *material);
+// Whether light can come back to the same surfaces with more than it had: each further bounce then adds to
+// the picture, so that there is none of all paths.
+bool scene_amplifies(const struct scene *scene);
+
 // ---- colours
 
 // #rrggbb is a displayed colour: /255 with transfer none, decoded from sRGB with srgb (IEC 61966-2-1).

@@ -17,6 +17,7 @@ static struct plan_search_input plan_input_of(const struct measuring *s) {
                                       .time_most_ms = options->max_time_ms,
                                       .deepest = s->search.deepest,
                                       .bounces = tradeoff_bounces(s),
+                                      .keeps_depth = scene_amplifies(s->input->scene),
                                       .cut = s->search.is_cut,
                                       .allow_resolution = options->allow_resolution};
 }

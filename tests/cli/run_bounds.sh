@@ -43,6 +43,16 @@ sampled() {
 }
 expect "samples go on until the bound is kept" 0 "" "" sampled
 
+# A stone that sends on more light than it receives: longer paths would only add to it, and max_depth is a part
+# of the picture.
+amplified() {
+    stone="$source/scenes/elements/refraction.glint.yaml"
+    "$glint" render "$stone" -q --size 40x30 --max-error mae=0.006 -o stone.pfm &&
+        "$glint" render "$stone" -q --size 40x30 --samples 128 --device reference --as-file -o stone-truth.pfm &&
+        "$glint" compare stone.pfm stone-truth.pfm --space displayed --max-mae 0.006
+}
+expect "light that grows keeps a bound at its depth" 0 "" "" amplified
+
 # Rays are counted apart, after the picture: by another kernel, which takes time of its own.
 counted() {
     "$glint" render "$source/scenes/elements/spheres.glint.yaml" -q --size 20x16 -o plain.pfm &&

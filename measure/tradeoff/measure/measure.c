@@ -38,6 +38,16 @@ struct reference_progress measuring_reference_progress(struct measuring *s) {
     return (struct reference_progress){report_reference, s};
 }
 
+struct reference_settings measuring_all_paths(const struct measuring *s, const struct ir_image *image) {
+    const struct scene *scene = s->input->scene;
+    struct reference_settings full = reference_settings_of(scene->ir, image, s->input->limits, false);
+    if (scene_amplifies(scene)) {
+        full.max_depth = (uint32_t)scene->ir->trace.max_depth;
+        full.cut_sees_background = scene->ir->trace.depth_limit == IR_DEPTH_BACKGROUND;
+    }
+    return full;
+}
+
 bool measuring_traces_as_file(const struct row *row) {
     return !(row->knobs & ~(1u << KNOB_PRECISION | 1u << KNOB_FEATURES | 1u << KNOB_ALTERNATIVE));
 }

@@ -119,6 +119,9 @@ bool measuring_step(struct measuring *s, const char *what);
 bool measuring_is_late(struct measuring *s);
 // Passes the reference's progress on.
 struct reference_progress measuring_reference_progress(struct measuring *s);
+// What the reference is asked for as the truth: paths to their ends. Where light grows from bounce to bounce
+// they have none, and max_depth is a part of the picture.
+struct reference_settings measuring_all_paths(const struct measuring *s, const struct ir_image *image);
 enum tradeoff_status measuring_reference_status(enum reference_result result);
 // Whether the row asks for the file's own rays, and differs at most in how they are computed.
 bool measuring_traces_as_file(const struct row *row);

@@ -46,6 +46,8 @@ static enum tradeoff_status open_precision(struct measuring *s, bool is_double) 
                                      .view = in->view,
                                      .origin = in->origin,
                                      .is_double = is_double,
+                                     // As render has it: its times are those of the study.
+                                     .sharing = gpu_info(in->gpu)->has_double ? FLAT_CHEAPER : FLAT_COPIES,
                                      .limits = in->limits,
                                      .sink = in->sink};
     if (!flatten(&input, &s->flat[is_double]))

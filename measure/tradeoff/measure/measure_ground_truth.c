@@ -112,7 +112,7 @@ enum tradeoff_status ground_truth_make(struct measuring *s, const struct work *o
     struct reference_statistics taken;
     struct plan_ground_truth planned;
     const double start = clock_seconds();
-    s->full = reference_settings_of(s->input->scene->ir, s->input->image, s->input->limits, false);
+    s->full = measuring_all_paths(s, s->input->image);
     // None that a row has: what two pictures share would not count as an error.
     s->full.first_sample = VIEW_OTHER_SAMPLES;
     s->full.points_of = s->full.footprint_of = 0; // all pixels of a row have all its samples

@@ -119,7 +119,9 @@ static const float *probe(struct measuring *s, struct probe_set wanted) {
     image.height = (int32_t)wanted.height;
     image.samples = (int32_t)wanted.samples;
     struct probing context = {
-        s, reference, reference_settings_of(s->input->scene->ir, &image, s->input->limits, !wanted.full),
+        s, reference,
+        wanted.full ? measuring_all_paths(s, &image)
+                    : reference_settings_of(s->input->scene->ir, &image, s->input->limits, true),
         wanted.taken, values};
     context.settings.points_of = wanted.taken ? wanted.samples : 0;
     context.settings.footprint_of = wanted.taken ? wanted.min_samples : 0;

@@ -152,7 +152,7 @@ static enum tradeoff_status begin_probes(struct measuring *s) {
 enum tradeoff_status search_begin(struct measuring *s) {
     struct search_pictures *p = &s->search;
     const size_t values = values_of(s), some = values > PILOT_VALUES ? values : PILOT_VALUES;
-    s->full = reference_settings_of(s->input->scene->ir, s->input->image, s->input->limits, false);
+    s->full = measuring_all_paths(s, s->input->image);
     s->full.points_of = s->full.footprint_of = 0;
     float **const floats[] = {&s->ground_truth, &s->shown, &s->picture, &p->full,
                               &p->tried,        &p->bias,  &p->smooth,  &p->best};

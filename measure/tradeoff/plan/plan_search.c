@@ -138,10 +138,11 @@ static struct setting probe_of(const struct setting *setting) {
     return s;
 }
 
-static struct setting deeper(const struct setting *at) {
+static struct setting deeper(const struct setting *at, bool keeps_depth) {
     struct setting s = *at;
     const uint32_t twice = at->max_depth ? 2 * at->max_depth : 2;
-    s.max_depth = twice < DEPTH_MOST ? twice : DEPTH_MOST;
+    if (!keeps_depth)
+        s.max_depth = twice < DEPTH_MOST ? twice : DEPTH_MOST;
     s.min_weight = at->min_weight / DEEPER_WEIGHT;
     return s;
 }
@@ -170,7 +171,7 @@ static bool is_in_reach(struct searching *s, struct setting *at) {
             return row;
         if (!s->input->cut)
             return false;
-        *at = deeper(at);
+        *at = deeper(at, s->input->keeps_depth);
     }
     return false;
 }

@@ -23,6 +23,7 @@ struct plan_search_input {
     double time_most_ms; // NaN: not asked for
     uint32_t deepest;    // level that the file's rays reach
     bool bounces;        // something reflects or refracts
+    bool keeps_depth;    // max_depth is a part of the picture: paths are not made longer
     bool cut;            // the file's settings cut rays that the ground truth follows
     bool allow_resolution;
 };
