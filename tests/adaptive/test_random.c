@@ -203,8 +203,8 @@ int main(int argc, char **argv) {
         return 77;
     for (int64_t i = run.first; i < run.first + run.count; i++)
         take_scene(&run, i);
-    printf("%u of %lld pictures err by more than they state as their most; %.1f samples\n",
-           (unsigned)run.broken, (long long)run.count, run.samples_mean);
+    printf("%lld of %lld pictures err by no more than they state as their most; %.1f samples\n",
+           (long long)(run.count - run.broken - run.failed), (long long)run.count, run.samples_mean);
     const uint32_t messages = picture_kit_close(&run.kit);
     return run.failed || messages || run.broken > run.max_broken;
 }

@@ -8,6 +8,7 @@
 // what a pixel does depends on nothing outside its tile.
 #include "core/heap.h"
 #include "core/parallel.h"
+#include "scene/points.h"
 #include "tracer/render/render_private.h"
 
 #include <math.h>
@@ -29,6 +30,9 @@ static const double TILE_SURE = 3.686;
 // How many times as large a variance that stands alone is as the mean of its neighbours': at an edge two of
 // eight are like it.
 static const float ALONE = 6;
+
+// Of the pixels that are drawn again: the part, and about how many at most.
+static const double AGAIN_PART = 0.04, AGAIN_MOST = 16384;
 
 // What is known of the pixels of a band, by slot.
 struct band {
@@ -106,12 +110,16 @@ static enum render_result draw_group(struct band *band, int group, uint32_t firs
     return RENDER_DONE;
 }
 
-static enum render_result draw_round(struct band *band, uint32_t samples, uint32_t next) {
+static bool write_list(const struct band *band) {
     struct renderer *renderer = band->run->renderer;
-    const uint32_t step = (next - samples) / GROUPS;
     const uint64_t at = COUNTER_COUNT + 2 * (uint64_t)renderer->places;
-    if (!gpu_write(renderer->gpu, renderer->buffers[BINDING_COUNTERS], at * sizeof *band->list, band->list,
-                   band->count * sizeof *band->list))
+    return gpu_write(renderer->gpu, renderer->buffers[BINDING_COUNTERS], at * sizeof *band->list, band->list,
+                     band->count * sizeof *band->list);
+}
+
+static enum render_result draw_round(struct band *band, uint32_t samples, uint32_t next) {
+    const uint32_t step = (next - samples) / GROUPS;
+    if (!write_list(band))
         return RENDER_FAILED;
     for (int group = 0; group < GROUPS; group++) {
         const uint32_t first = samples + (uint32_t)group * step;
@@ -269,9 +277,12 @@ static void put_pixel(const struct band *band, uint32_t slot, float *rgb) {
     renderer->estimate.samples[pixel] = band->samples[slot];
 }
 
-// Sums over the tiles: of the variances, and of the squares of a tile's.
+// Sums over the tiles: of the variances, and of the squares of a tile's. Sums over the pixels that were
+// drawn again: by how much the square of the error exceeds the variance, and of the squares of that.
 struct total {
     double variance, squares;
+    double excess, excess_squares;
+    uint32_t again;
 };
 
 static void end_band(const struct band *band, float *rgb, struct total *total) {
@@ -295,6 +306,77 @@ static void end_band(const struct band *band, float *rgb, struct total *total) {
     }
 }
 
+// ---- pixels that are drawn again
+
+// The groups of a pixel are parts of one sequence. What none of its samples met is in none of them, and where
+// a picture is as fine as the sequence, the groups can differ by less than their mean errs: the square of
+// that is up to twice as large as for places that are independent (Owen 1997, "Monte Carlo Variance of
+// Scrambled Net Quadrature"). So some of the pixels, a random part, are drawn again when they have ended,
+// with as many samples of a sequence of their own: half of the square of the difference is that of the error.
+static bool is_drawn_again(const struct render_settings *settings, uint32_t x, uint32_t y) {
+    const double part = AGAIN_MOST / ((double)settings->width * settings->height);
+    const uint32_t hash = point_hash(point_hash(x + settings->first_x) + y + settings->first_y);
+    return hash * 0x1p-32 < fmin(part, AGAIN_PART);
+}
+
+static void list_again(struct band *band, uint32_t samples) {
+    band->count = 0;
+    for (uint32_t slot = 0; slot < band->tiles * TILE_PIXELS; slot++) {
+        uint32_t x, y;
+        if (band->samples[slot] == samples && is_sound(band, slot) &&
+            renderer_pixel(band->run->renderer, band->begin, slot, &x, &y) &&
+            is_drawn_again(&band->run->renderer->settings, x, y))
+            band->list[band->count++] = slot;
+    }
+}
+
+// The mean of a pixel's samples into `to`; its sums are cleared.
+static void take_mean(struct band *band, uint32_t slot, float *to) {
+    for (int k = 0; k < 3; k++) {
+        to[k] = 0;
+        for (int group = 0; group < GROUPS; group++)
+            to[k] += band->sums[slot][group][k] / (float)band->samples[slot];
+    }
+    memset(band->sums[slot], 0, sizeof band->sums[slot]);
+}
+
+static void add_excess(const struct band *band, struct total *total) {
+    for (uint32_t i = 0; i < band->count; i++) {
+        const float *first = band->shown + 3 * (size_t)i, *second = first + 3 * (size_t)band->count;
+        double square = 0;
+        for (int k = 0; k < 3; k++)
+            square += pow((double)first[k] - (double)second[k], 2) / (2 * 3);
+        if (!is_sound(band, band->list[i]) || !isfinite(square))
+            continue;
+        const double excess = square - (double)band->variance[band->list[i]];
+        total->excess += excess;
+        total->excess_squares += excess * excess;
+        total->again++;
+    }
+}
+
+// Pixels that have ended with this number of samples. Numbers from a power of two on that no sample of the
+// picture has are those of another sequence.
+static enum render_result draw_again(struct band *band, uint32_t samples, struct total *total) {
+    const struct render_settings *settings = &band->run->renderer->settings;
+    const uint32_t bits = points_bits(settings->first_sample, settings->samples);
+    const uint32_t first = (((settings->samples - 1) >> bits) + 1) << bits;
+    list_again(band, samples);
+    if (band->count == 0)
+        return RENDER_DONE;
+    for (uint32_t i = 0; i < band->count; i++)
+        take_mean(band, band->list[i], band->shown + 3 * (size_t)i);
+    const enum render_result result =
+        write_list(band) ? draw_group(band, 0, first, first + samples) : RENDER_FAILED;
+    if (result != RENDER_DONE)
+        return result;
+    for (uint32_t i = 0; i < band->count; i++)
+        take_mean(band, band->list[i], band->shown + 3 * ((size_t)band->count + i));
+    settings->show(settings->show_context, band->shown, 2 * (size_t)band->count, band->shown);
+    add_excess(band, total);
+    return RENDER_DONE;
+}
+
 static enum render_result draw_band(struct band *band, float *rgb, struct total *total) {
     const struct render_settings *settings = &band->run->renderer->settings;
     enum render_result result = RENDER_DONE;
@@ -315,6 +397,12 @@ static enum render_result draw_band(struct band *band, float *rgb, struct total 
     }
     band->ended += band->count;
     end_band(band, rgb, total);
+    for (uint32_t samples = 0, next; result == RENDER_DONE; samples = next) {
+        next = next_samples(settings, samples);
+        if (next == samples)
+            break;
+        result = draw_again(band, next, total);
+    }
     return result;
 }
 
@@ -331,19 +419,26 @@ static bool make_estimate(struct renderer *renderer) {
 }
 
 // Neither the errors nor their estimates are independent within a tile, where edges go on; of a tile the
-// square of the error varies by twice its square, and an estimate from four groups by two thirds of it.
+// square of the error varies by twice its square, and an estimate from four groups by two thirds of it. Where
+// the pixels that were drawn again say more than that, they count: for all, with their own spread.
 static void conclude(struct renderer *renderer, const struct total *total) {
     const double all = (double)renderer->settings.width * renderer->settings.height;
-    const double pixels = fmax(all - renderer->estimate.unknown, 1);
-    const double spread = SURE * sqrt((2 + 2.0 / (GROUPS - 1)) * total->squares);
+    const double pixels = fmax(all - renderer->estimate.unknown, 1), again = total->again;
+    double most = total->variance + SURE * sqrt((2 + 2.0 / (GROUPS - 1)) * total->squares);
+    if (again > 1) {
+        const double excess = total->excess / again;
+        const double squares = (total->excess_squares - again * excess * excess) / (again - 1);
+        const double spread = SURE * sqrt(2 * total->squares + pixels * pixels * fmax(squares, 0) / again);
+        most = fmax(most, total->variance + pixels * excess + spread);
+    }
     renderer->estimate.mean = sqrt(total->variance / pixels);
-    renderer->estimate.most = sqrt((total->variance + spread) / pixels);
+    renderer->estimate.most = sqrt(most / pixels);
 }
 
 enum render_result renderer_draw_adaptive(struct renderer_frame *run, float *rgb) {
     struct renderer *renderer = run->renderer;
     struct band band = {.run = run};
-    struct total total = {0, 0};
+    struct total total = {0};
     run->statistics->all_samples = 0;
     renderer->estimate.unknown = 0;
     run->steps = (uint64_t)renderer->settings.width * renderer->settings.height;
