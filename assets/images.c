@@ -12,10 +12,10 @@ struct pixel_cost {
 };
 
 static struct pixel_cost cost_of(const struct assets_input *input, enum picture_depth depth) {
-    static const struct pixel_cost costs[] = {[PICTURE_8] = {4, 16},
-                                              [PICTURE_16] = {16, 46},
-                                              [PICTURE_RGBE] = {16, 47},
-                                              [PICTURE_FLOAT] = {16, 47}};
+    static const struct pixel_cost costs[] = {[PICTURE_8] = {4, 10},
+                                              [PICTURE_16] = {16, 26},
+                                              [PICTURE_RGBE] = {16, 26},
+                                              [PICTURE_FLOAT] = {16, 26}};
     struct pixel_cost cost = costs[depth];
     if (input->scene->image.transfer == IR_TRANSFER_SRGB)
         cost.background = 16;
