@@ -33,6 +33,13 @@ static void decode(void *context) {
     timeline_add(ahead->timeline, "image", ahead->path, start);
 }
 
+static bool fits(const struct asset_ahead *ahead, const struct assets_input *input) {
+    const struct picture picture = picture_of_header(&ahead->header);
+    const uint64_t bytes = loader_image_memory(input, &picture, ahead->header.decoder_bytes, true);
+    return bytes <= input->limits->value[LIMIT_IMAGE_MEMORY] &&
+           asset_fits_growth(input, bytes, ahead->identity.size_bytes);
+}
+
 // Everything up to the pixels; false: something is not as it should be, or was decoded before.
 static bool find(struct asset_ahead *ahead, const struct assets_input *input, struct asset_hold *hold,
                  str base) {
@@ -45,7 +52,7 @@ static bool find(struct asset_ahead *ahead, const struct assets_input *input, st
     arena_init(&ahead->arena, limits_size(input->limits, LIMIT_IMAGE_BYTES) + ASSET_TEXT_ROOM);
     return files_read(files, ahead->path, most, &ahead->arena, &ahead->text) == FILE_OK &&
            !picture_read_header(ahead->text, &ahead->header) && ahead->header.kind != IMAGE_NONE &&
-           picture_memory(&ahead->header, ASSET_TEXEL_BYTES) <= input->limits->value[LIMIT_IMAGE_MEMORY];
+           fits(ahead, input);
 }
 
 struct asset_ahead *ahead_begin(const struct assets_input *input, struct asset_hold *hold, str base) {
@@ -69,7 +76,7 @@ bool ahead_is_for(struct asset_ahead *ahead, const struct file_read *identity, s
         ahead->identity.modified_ns != identity->modified_ns)
         return false;
     entry->picture = picture_of_header(&ahead->header);
-    entry->picture_bytes = picture_memory(&ahead->header, ASSET_TEXEL_BYTES);
+    entry->decoder_bytes = ahead->header.decoder_bytes;
     ahead->entry = entry;
     ahead->file = *file;
     return true;

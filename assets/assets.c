@@ -275,10 +275,13 @@ static const struct picture *load_background(struct loader *loader, struct asset
         asset_report_memory(&file, ARENA_FAULT_SYSTEM);
         return NULL;
     }
+    const struct image_role role = {.is_background = true, .file_bytes = identity.size_bytes};
     out->pixels_later = !entry->is_whole && ahead_is_for(out->ahead, &identity, entry, &file);
     if (out->pixels_later)
-        return &entry->picture;
-    loader_complete_image(loader, &file, background->image, entry);
+        out->pixels_later = loader_image_fits(loader, &file, background->image, entry, role);
+    if (out->pixels_later || file.errors)
+        return out->pixels_later ? &entry->picture : NULL;
+    loader_complete_image(loader, &file, background->image, entry, role);
     const struct picture *picture = loader_judge_image(&file, entry, false);
     out->pixels_skipped |= picture && entry->kind == STORE_PICTURE_SKIPPED;
     return picture;
@@ -353,6 +356,7 @@ void assets_load(struct asset_store *store, const struct assets_input *given, en
     loader_close_documents(&loader);
     if (has_image)
         out->background = load_background(&loader, out);
+    loader_report_unfit_images(&loader);
     out->materials = loader.materials.items;
     out->material_count = loader.materials.count;
     store_sweep(store);

@@ -2,30 +2,107 @@
 #include "assets/loader.h"
 #include "core/clock.h"
 #include "core/timeline.h"
+#include "grammar/ir.h"
 #include "picture/read/picture_read.h"
 
-static bool fits_memory(struct asset_file *file, str name, const struct store_entry *entry) {
-    const struct limit_info *info = limit_info(LIMIT_IMAGE_MEMORY);
-    const uint64_t bytes = entry->picture_bytes;
-    if (bytes <= file->input->limits->value[LIMIT_IMAGE_MEMORY])
-        return true;
-    asset_report_named(
-        file, DIAG_LIMIT,
-        "the image '%.*s' claims %u x %u pixels, which take %llu bytes of memory; the limit %s "
-        "is %llu",
-        STR_ARG(name), entry->picture.width, entry->picture.height, (unsigned long long)bytes, info->name,
-        (unsigned long long)file->input->limits->value[LIMIT_IMAGE_MEMORY]);
+// Bytes of memory for each pixel besides the pixel itself, by depth: of a background the device's texels; of
+// a surface's image its levels as well, and those of the device.
+struct pixel_cost {
+    uint32_t background, surface;
+};
+
+static struct pixel_cost cost_of(const struct assets_input *input, enum picture_depth depth) {
+    static const struct pixel_cost costs[] = {[PICTURE_8] = {4, 10},
+                                              [PICTURE_16] = {16, 26},
+                                              [PICTURE_RGBE] = {16, 26},
+                                              [PICTURE_FLOAT] = {16, 26}};
+    struct pixel_cost cost = costs[depth];
+    if (input->scene->image.transfer == IR_TRANSFER_SRGB)
+        cost.background = 16;
+    return cost;
+}
+
+uint64_t loader_image_memory(const struct assets_input *input, const struct picture *picture,
+                             uint64_t decoder_bytes, bool is_background) {
+    const struct pixel_cost cost = cost_of(input, picture->depth);
+    const uint64_t each =
+        picture_pixel_bytes(picture->depth) + (is_background ? cost.background : cost.surface);
+    const uint64_t pixels = (uint64_t)picture->width * picture->height;
+    return pixels > (UINT64_MAX - decoder_bytes) / each ? UINT64_MAX : pixels * each + decoder_bytes;
+}
+
+static void help_limit(struct asset_file *file, enum limit which, uint64_t bytes) {
+    const struct limit_info *info = limit_info(which);
     if (bytes <= info->greatest)
         diag_help(file->input->sink, "if the file is right, raise the limit: --limit %s=%llu", info->name,
                   (unsigned long long)bytes);
     else
         diag_help(file->input->sink, "no limit allows more than %llu bytes; make the image smaller",
                   (unsigned long long)info->greatest);
+}
+
+static bool fits_memory(struct asset_file *file, str name, const struct picture *picture, uint64_t bytes) {
+    const struct limit_info *info = limit_info(LIMIT_IMAGE_MEMORY);
+    if (bytes <= file->input->limits->value[LIMIT_IMAGE_MEMORY])
+        return true;
+    asset_report_named(
+        file, DIAG_LIMIT,
+        "the image '%.*s' claims %u x %u pixels, which take %llu bytes of memory; the limit %s "
+        "is %llu",
+        STR_ARG(name), picture->width, picture->height, (unsigned long long)bytes, info->name,
+        (unsigned long long)file->input->limits->value[LIMIT_IMAGE_MEMORY]);
+    help_limit(file, LIMIT_IMAGE_MEMORY, bytes);
     return false;
 }
 
+// A small file cannot take much memory, and neither can many of them. Told once, of all that do not fit.
+static bool fits_scene(struct loader *loader, struct asset_file *file, str name, uint64_t bytes,
+                       uint64_t file_bytes) {
+    loader->held.file_bytes += file_bytes;
+    if (asset_fits_growth(file->input, loader->held.bytes + bytes, loader->held.file_bytes)) {
+        loader->held.bytes += bytes;
+        return true;
+    }
+    if (loader->unfit_images.count++ == 0) {
+        loader->unfit_images.first = *file;
+        loader->unfit_images.name = arena_copy(loader->input->arena, name);
+        loader->unfit_images.first_sum = loader->held.bytes + bytes;
+        loader->unfit_images.first_file_bytes = loader->held.file_bytes;
+    }
+    loader->unfit_images.bytes += bytes;
+    file->errors++;
+    return false;
+}
+
+void loader_report_unfit_images(struct loader *loader) {
+    const uint32_t count = loader->unfit_images.count;
+    const uint64_t most = loader->input->limits->value[LIMIT_IMAGE_GROWTH];
+    if (count == 0)
+        return;
+    asset_report_named(&loader->unfit_images.first, DIAG_LIMIT,
+                       "with the image '%.*s' the images take %llu bytes of memory, and their files have "
+                       "%llu bytes; the limit %s is %llu, or %d for each byte of the files",
+                       STR_ARG(loader->unfit_images.name), (unsigned long long)loader->unfit_images.first_sum,
+                       (unsigned long long)loader->unfit_images.first_file_bytes,
+                       limit_info(LIMIT_IMAGE_GROWTH)->name, (unsigned long long)most, ASSET_IMAGE_GROWTH);
+    if (count > 1)
+        diag_note(loader->input->sink, SPAN_NONE, "%u further image%s not fit either", count - 1,
+                  count == 2 ? " does" : "s do");
+    help_limit(&loader->unfit_images.first, LIMIT_IMAGE_GROWTH,
+               loader->held.bytes + loader->unfit_images.bytes);
+}
+
+bool loader_image_fits(struct loader *loader, struct asset_file *file, str name,
+                       const struct store_entry *entry, struct image_role role) {
+    const uint64_t bytes =
+        loader_image_memory(file->input, &entry->picture, entry->decoder_bytes, role.is_background);
+    return fits_memory(file, name, &entry->picture, bytes) &&
+           fits_scene(loader, file, name, bytes, role.file_bytes);
+}
+
 // What the file's bytes say; a fault of the decoder is left in the entry.
-static void decode_image(struct asset_file *file, str name, struct store_entry *entry) {
+static void decode_image(struct loader *loader, struct asset_file *file, str name, struct store_entry *entry,
+                         struct image_role role) {
     struct picture_header header;
     const char *fault = picture_read_header(file->text, &header);
     if (header.kind == IMAGE_NONE) {
@@ -34,8 +111,8 @@ static void decode_image(struct asset_file *file, str name, struct store_entry *
         return;
     }
     entry->picture = picture_of_header(&header);
-    entry->picture_bytes = fault ? 0 : picture_memory(&header, ASSET_TEXEL_BYTES);
-    if (!fits_memory(file, name, entry))
+    entry->decoder_bytes = header.decoder_bytes;
+    if (!fault && !loader_image_fits(loader, file, name, entry, role))
         return;
     if (!fault && entry->kind == STORE_PICTURE_KEPT)
         fault = picture_decode(file->text, &header, &entry->picture);
@@ -49,12 +126,13 @@ static void decode_image(struct asset_file *file, str name, struct store_entry *
         entry->picture_fault = fault;
 }
 
-static void read_image(struct loader *loader, struct asset_file *file, str name, struct store_entry *entry) {
+static void read_image(struct loader *loader, struct asset_file *file, str name, struct store_entry *entry,
+                       struct image_role role) {
     struct arena *scratch = &loader->hold->scratch;
     arena_init(scratch, limits_size(file->input->limits, LIMIT_IMAGE_BYTES) + ASSET_TEXT_ROOM);
     const double start = clock_seconds();
     if (file->text.len || asset_read(file, scratch))
-        decode_image(file, name, entry);
+        decode_image(loader, file, name, entry, role);
     timeline_add(loader->input->timeline, "image", file->path, start);
     file->text = STR("");
     arena_finish(scratch);
@@ -102,18 +180,18 @@ const struct picture *loader_judge_image(struct asset_file *file, struct store_e
 }
 
 void loader_complete_image(struct loader *loader, struct asset_file *file, str name,
-                           struct store_entry *entry) {
+                           struct store_entry *entry, struct image_role role) {
     if (!entry->is_whole)
-        read_image(loader, file, name, entry);
-    else
-        fits_memory(file, name, entry);
+        read_image(loader, file, name, entry, role);
+    else if (!entry->picture_fault)
+        loader_image_fits(loader, file, name, entry, role);
 }
 
 struct store_entry *loader_read_image(struct loader *loader, struct asset_file *file, str name,
-                                      const struct file_read *identity) {
+                                      const struct file_read *identity, struct image_role role) {
     struct store_entry *entry = loader_find_image(loader, identity);
     if (entry)
-        loader_complete_image(loader, file, name, entry);
+        loader_complete_image(loader, file, name, entry, role);
     else
         asset_report_memory(file, ARENA_FAULT_SYSTEM);
     return entry;

@@ -40,6 +40,7 @@ struct loaded_mesh {
 struct loaded_image {
     struct asset_file file;
     str canonical;
+    str held;                      // its bytes in a glTF document; empty: it has a file of its own
     const struct picture *picture; // NULL: it could not be loaded
     struct loaded_image *next;
 };
@@ -54,8 +55,13 @@ struct material_source {
 };
 
 enum {
-    ASSET_TEXT_ROOM = 64,  // that an arena needs besides the text itself
-    ASSET_TEXEL_BYTES = 16 // a device may get each pixel as four floats
+    ASSET_TEXT_ROOM = 64, // that an arena needs besides the text itself
+};
+
+// An image that the scene shows: what it is used for, and what it may take.
+struct image_role {
+    bool is_background;  // or a surface has it, with smaller levels
+    uint64_t file_bytes; // that were not counted for another image before
 };
 
 struct loader {
@@ -74,6 +80,16 @@ struct loader {
         uint32_t count, capacity;
     } sources; // one for each of them
     struct {
+        uint64_t bytes, file_bytes;
+    } held; // memory of the images so far, and their files
+    struct {
+        uint32_t count;
+        struct asset_file first;
+        str name;
+        uint64_t first_sum, first_file_bytes; // with the first one
+        uint64_t bytes;                       // of all of them
+    } unfit_images;                           // with which the scene's would take more than image-growth
+    struct {
         uint32_t models;
         uint64_t triangles; // of all of them
         span first;
@@ -87,12 +103,21 @@ struct ir_material *loader_add_material(struct loader *loader, struct material_s
 // The entry of an image that was found under its name, read if it was not before; NULL: no memory. What is
 // wrong with it is reported, but for faults of the decoder.
 struct store_entry *loader_read_image(struct loader *loader, struct asset_file *file, str name,
-                                      const struct file_read *identity);
+                                      const struct file_read *identity, struct image_role role);
 // Its two halves: the entry, or a new one, of which at least as much is known as is asked for; and its
 // reading.
 struct store_entry *loader_find_image(struct loader *loader, const struct file_read *identity);
 void loader_complete_image(struct loader *loader, struct asset_file *file, str name,
-                           struct store_entry *entry);
+                           struct store_entry *entry, struct image_role role);
+// Whether the memory that it takes is within the limits; counted among that of the scene's images. Those with
+// which a scene's images take too much are reported by the second, once for all.
+void loader_report_unfit_images(struct loader *loader);
+bool loader_image_fits(struct loader *loader, struct asset_file *file, str name,
+                       const struct store_entry *entry, struct image_role role);
+// The memory that a picture takes at most while a scene that shows it is rendered on a processor, whose
+// device's memory counts too: pixels, texels, and what its decoder needs. UINT64_MAX: beyond all.
+uint64_t loader_image_memory(const struct assets_input *input, const struct picture *picture,
+                             uint64_t decoder_bytes, bool is_background);
 // What is known of the picture once its pixels are; NULL: it cannot be used. `is_solid`: whoever names it
 // says that its alpha means nothing, or that it does.
 const struct picture *loader_judge_image(struct asset_file *file, struct store_entry *entry, bool is_solid);

@@ -26,7 +26,7 @@ struct store_entry {
     bool is_whole; // what is known will be found again; others never are, and are freed by the next sweep
     struct mesh mesh;
     struct picture picture;
-    uint64_t picture_bytes;    // that it takes at most, for the limit
+    uint64_t decoder_bytes;    // that decoding takes besides the pixels
     const char *picture_fault; // why it cannot be decoded, which is known of the file too; NULL: it can
 };
 

@@ -74,6 +74,18 @@ static bool find_in_document(const struct material_source *source, struct asset_
     return finding.found;
 }
 
+// Images of a document may share their bytes, whole or in part; these count once.
+static uint64_t file_bytes(const struct loader *loader, const struct loaded_image *image,
+                           const struct file_read *identity) {
+    const str own = image->held;
+    if (own.len == 0)
+        return identity->size_bytes;
+    for (const struct loaded_image *other = loader->images; other; other = other->next)
+        if (other->held.ptr < own.ptr + own.len && own.ptr < other->held.ptr + other->held.len)
+            return 0;
+    return own.len;
+}
+
 static const struct picture *load_image(struct loader *loader, struct assets *out,
                                         const struct ir_texture *texture,
                                         const struct material_source *source) {
@@ -101,7 +113,10 @@ static const struct picture *load_image(struct loader *loader, struct assets *ou
     if (is_known)
         return known;
     image->canonical = arena_copy(input->arena, identity.path);
-    struct store_entry *entry = loader_read_image(loader, &image->file, name, &identity);
+    image->held = source->document ? image->file.text : STR("");
+    struct store_entry *entry =
+        loader_read_image(loader, &image->file, name, &identity,
+                          (struct image_role){.file_bytes = file_bytes(loader, image, &identity)});
     if (!entry)
         return NULL;
     // A material of a glTF file says whether alpha counts.

@@ -198,6 +198,10 @@ void asset_report_limit(struct asset_file *file, enum limit limit, size_t begin,
                   (unsigned long long)needed);
 }
 
+bool asset_fits_growth(const struct assets_input *input, uint64_t bytes, uint64_t file_bytes) {
+    return bytes <= input->limits->value[LIMIT_IMAGE_GROWTH] || bytes / ASSET_IMAGE_GROWTH < file_bytes;
+}
+
 void asset_report_memory(struct asset_file *file, enum arena_fault fault) {
     if (fault == ARENA_FAULT_CAP) {
         asset_report_named(file, DIAG_LIMIT,

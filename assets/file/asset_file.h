@@ -72,4 +72,11 @@ void asset_report_limit(struct asset_file *file, enum limit limit, size_t begin,
 // Reports the fault of an arena that was used for the file (E501 or E502) where the file is named.
 void asset_report_memory(struct asset_file *file, enum arena_fault fault);
 
+enum {
+    ASSET_IMAGE_GROWTH = 200, // bytes of memory that images may take for each byte of their files
+};
+
+// Whether images may take that much memory: image-growth, or as their files allow.
+bool asset_fits_growth(const struct assets_input *input, uint64_t bytes, uint64_t file_bytes);
+
 #endif

@@ -197,9 +197,13 @@ static void read_means(void *context) {
     if (!gltf_document_image(document, mean->image, &file, &identity) ||
         (file.text.len == 0 && !asset_read(&file, &document->arena)))
         return;
-    if (picture_read_header(file.text, &header) || header.kind == IMAGE_NONE ||
-        picture_memory(&header, 0) > file.input->limits->value[LIMIT_IMAGE_MEMORY] ||
-        picture_decode(file.text, &header, &mean->picture))
+    const char *fault = picture_read_header(file.text, &header);
+    if (!fault && header.kind != IMAGE_NONE &&
+        !asset_fits_growth(file.input, picture_memory(&header, 0), file.text.len))
+        asset_report_limit(&file, LIMIT_IMAGE_GROWTH, 0, 0, picture_memory(&header, 0));
+    else if (fault || header.kind == IMAGE_NONE ||
+             picture_memory(&header, 0) > file.input->limits->value[LIMIT_IMAGE_MEMORY] ||
+             picture_decode(file.text, &header, &mean->picture))
         asset_report_named(&file, DIAG_IMAGE_BROKEN, "the image of metal and roughness cannot be decoded");
     else
         take_means(&mean->picture, out);

@@ -15,6 +15,7 @@ enum {
     BAND_PIXELS = 4 << 20,   // of a band at most: 48 MiB
     PATHS_OF_CPU = 2 << 20,  // in a band: about a second of a few processors
     PATHS_OF_GPU = 32 << 20, // enough to keep it busy
+    WHOLE_PIXELS = 8 << 20,  // more are in bands where nothing needs all at once: whole, each takes 18 bytes
 };
 
 // ---- whether
@@ -76,27 +77,38 @@ int render_judge_bands(struct render_job *job) {
     return why ? cli_usage(job->cli, place_of(job), "this is not possible in bands: %s", why) : CLI_OK;
 }
 
+// The first output whose format is made of all pixels at once; NULL: none.
+static const struct cli_output *whole_output(const struct render_job *job) {
+    for (uint32_t i = 0; i < job->output_count; i++)
+        if (!job->outputs[i].is_part && !image_rows_can(job->outputs[i].format))
+            return &job->outputs[i];
+    return NULL;
+}
+
+// A picture that could be held as a whole, and need not be. What --stats counts is of whole pictures.
+static bool saves_memory(const struct render_job *job) {
+    const struct part_region *region = &job->part.region;
+    return (uint64_t)region->width * region->height > WHOLE_PIXELS && !obstacle(job) && !whole_output(job) &&
+           !job->cli->options.stats && !(job->session.image->error > 0);
+}
+
 // A picture that is too large to be held needs formats that can be written in rows.
 static int judge_formats(struct render_job *job) {
-    for (uint32_t i = 0; i < job->output_count; i++) {
-        const struct cli_output *output = &job->outputs[i];
-        if (output->is_part || image_rows_can(output->format))
-            continue;
-        const int status =
-            cli_usage(job->cli, output->arg ? output->arg : place_of(job),
-                      "'%s' is of a format whose file is made of all pixels at once, and this picture has "
-                      "more than 64 megapixels",
-                      output->path);
-        diag_help(&job->cli->sink, "write .png, .exr, .pfm or .hdr, and convert that");
-        return status;
-    }
-    return CLI_OK;
+    const struct cli_output *output = whole_output(job);
+    if (!output)
+        return CLI_OK;
+    const int status = cli_usage(job->cli, output->arg ? output->arg : place_of(job),
+                                 "'%s' is of a format whose file is made of all pixels at once, and this "
+                                 "picture has more than 64 megapixels",
+                                 output->path);
+    diag_help(&job->cli->sink, "write .png, .exr, .pfm or .hdr, and convert that");
+    return status;
 }
 
 int render_plan_bands(struct render_job *job) {
     const struct part_region *region = &job->part.region;
     const bool is_large = (uint64_t)region->width * region->height > SESSION_PIXELS_MOST;
-    job->in_bands = is_large || are_asked_for(job);
+    job->in_bands = is_large || are_asked_for(job) || saves_memory(job);
     if (!job->in_bands)
         return CLI_OK;
     const char *why = obstacle(job);

@@ -91,6 +91,18 @@ more=$(($(peak bands.json) - $(peak small.json)))
 # The picture has 101 MB of floats, of which a band has 3; what a file of rows is made in has 40.
 [ "$more" -lt 60000000 ] && pass "in $more bytes more than a small one" || fail "in $more bytes more than a small one"
 
+# ---- more than 8 megapixels
+
+# A whole picture of 4096 x 4096 takes 300 MB more than a small one, as that of a JPEG file does.
+(ulimit -d 350000 && exec env LP_NUM_THREADS=2 "$glint" render large.yaml --size 4096x4096 -q -o spared.png) &&
+    pass '16 megapixels in 350 MB' || fail '16 megapixels in 350 MB'
+(ulimit -d 350000 && exec env LP_NUM_THREADS=2 "$glint" render large.yaml --size 4096x4096 -q -o spared.jpg) 2>/dev/null &&
+    fail 'a JPEG file is made of all pixels' || pass 'a JPEG file is made of all pixels'
+"$glint" render large.yaml --size 4096x4096 -q -o spared.pfm
+"$glint" render large.yaml --size 4096x4096 -q --repeat 1 -o at_once.pfm 2>/dev/null
+same 'the bytes of the whole picture' spared.pfm at_once.pfm
+rm -f spared.* at_once.pfm
+
 # ---- more than 64 megapixels
 
 huge='--size 16384x16384'

@@ -244,5 +244,6 @@ void flat_finish(struct flat_scene *flat) {
         free_geometry(flat);
     free(flat->bounces);
     free(flat->background_texels.decoded);
+    free(flat->texels.textures);
     *flat = (struct flat_scene){0};
 }

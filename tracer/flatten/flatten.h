@@ -63,6 +63,13 @@ struct flat_bounce {
     bool refracts;     // a path may branch on it
 };
 
+// Where an image's levels lie among the device's words.
+struct flat_texture {
+    uint64_t table;                    // of what stored bytes stand for; 0: there is none
+    uint64_t levels;                   // a word each
+    uint64_t texels[SCENE_LEVELS_MAX]; // the first words of each, among those of texels
+};
+
 struct flat_scene {
     bool is_double; // for the kernels in double precision
     struct flat_strides strides;
@@ -77,7 +84,11 @@ struct flat_scene {
         bool is_float;  // four floats a texel, else four bytes of 1/255
         float *decoded; // by stored value, where these are whole numbers that become floats
     } background_texels;
-    struct flat_array paints;                           // one word: there are none
+    struct flat_array paints; // without texels; no word: there are none
+    struct {
+        uint64_t words;                // that follow those of `paints` on the device
+        struct flat_texture *textures; // in the order of the scene's list
+    } texels;
     struct flat_array instances;                        // and their tables; without words: there are none
     uint32_t instance_count;                            // with instance 0, all that is not shared
     uint32_t top_nodes, instance_table, instance_shift; // as in the frame (shaders/frame.h)
@@ -128,6 +139,10 @@ struct flat_input {
 bool flatten(const struct flat_input *input, struct flat_scene *out);
 // Makes texels [begin, end) of the background, whose picture must have its pixels, from `to` on.
 void flat_background(const struct flat_scene *flat, size_t begin, size_t end, void *to);
+// Makes words [begin, end) of the texels of images on surfaces, from `to` on.
+void flat_texels(const struct flat_scene *flat, uint64_t begin, uint64_t end, struct gpu_word *to);
+// Whether the texels of two flat scenes, with their scenes, are the same.
+bool flat_has_texels_of(const struct flat_scene *a, const struct flat_scene *b);
 void flat_finish(struct flat_scene *flat);
 // What a flat scene shares with the one of before is its own from now on; else nothing happens.
 void flat_take(struct flat_scene *flat, struct flat_scene *before);

@@ -9,7 +9,7 @@
 #include <string.h>
 
 enum {
-    PIECE_ROWS = 16,
+    PIECE_WORDS = 8192,
     PIECE_TRIANGLES = 8192,
     TABLE_WORDS = 256,
     BODIES_PER_WORD = 4,
@@ -19,12 +19,6 @@ enum {
 static const uint32_t kinds[] = {[SCENE_TEXELS_BYTES] = TEXELS_BYTES,
                                  [SCENE_TEXELS_PACKED] = TEXELS_PACKED,
                                  [SCENE_TEXELS_FLOATS] = TEXELS_FLOATS};
-
-// Where an image's parts lie, in words.
-struct placed_texture {
-    uint64_t levels, table;
-    uint64_t texels[SCENE_LEVELS_MAX]; // counted in texels
-};
 
 // ---- what a material needs
 
@@ -50,16 +44,20 @@ static bool is_any_painted(const struct flattening *f) {
 
 // ---- places
 
-static void place_texture(const struct scene_texture *t, uint64_t *end, struct placed_texture *out) {
+static uint64_t level_words(const struct scene_level *level) {
+    const uint32_t kind = kinds[level->texels], per_word = UINT32_C(1) << kind;
+    return ((uint64_t)level->width * level->height + per_word - 1) >> kind;
+}
+
+static void place_texture(const struct scene_texture *t, uint64_t *end, uint64_t *end_of_texels,
+                          struct flat_texture *out) {
     out->table = t->is_srgb && t->levels[0].texels == SCENE_TEXELS_BYTES ? *end : 0;
     *end += out->table ? TABLE_WORDS : 0;
     out->levels = *end;
     *end += t->level_count;
     for (uint32_t i = 0; i < t->level_count; i++) {
-        const struct scene_level *level = &t->levels[i];
-        const uint32_t kind = kinds[level->texels], per_word = UINT32_C(1) << kind;
-        out->texels[i] = *end << kind;
-        *end += ((uint64_t)level->width * level->height + per_word - 1) >> kind;
+        out->texels[i] = *end_of_texels;
+        *end_of_texels += level_words(&t->levels[i]);
     }
 }
 
@@ -97,49 +95,76 @@ static void place_coordinates(const struct flattening *f, uint64_t *end) {
 
 // ---- filling
 
-struct filling {
-    const struct scene_texture *texture;
-    uint32_t level;
-    struct gpu_word *words; // of the whole array
-    uint64_t first;         // texel
-};
-
 static uint32_t stored_bytes(const struct scene_texture *t, uint64_t at) {
     const uint8_t *p = (const uint8_t *)t->picture->pixels + 3 * at;
     return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16;
 }
 
-static void put_texel(const struct filling *fill, uint32_t x, uint32_t y) {
+struct filling {
+    const struct scene_texture *texture;
+    uint32_t level;
+    uint64_t first; // word of the level
+    struct gpu_word *to;
+};
+
+// Texels [begin, end) of a level, in words that begin with the first of them.
+static void put_texels(const struct filling *fill, uint64_t begin, uint64_t end, struct gpu_word *to) {
     const struct scene_level *level = &fill->texture->levels[fill->level];
-    const uint64_t at = (uint64_t)y * level->width + x, to = fill->first + at;
-    if (level->texels == SCENE_TEXELS_BYTES)
-        gpu_pack_uint(fill->words + to / 4, 0, (uint32_t)(to % 4), stored_bytes(fill->texture, at));
-    else if (level->texels == SCENE_TEXELS_PACKED)
-        memcpy((uint64_t *)fill->words + to, (const uint64_t *)level->pixels + at, sizeof(uint64_t));
-    else
-        gpu_pack_float3(fill->words + to, 0, scene_texel(fill->texture, fill->level, x, y));
+    *to = (struct gpu_word){0};
+    for (uint64_t at = begin; at < end; at++)
+        if (level->texels == SCENE_TEXELS_BYTES)
+            gpu_pack_uint(to, 0, (uint32_t)(at - begin), stored_bytes(fill->texture, at));
+        else if (level->texels == SCENE_TEXELS_PACKED)
+            memcpy((uint64_t *)to + (at - begin), (const uint64_t *)level->pixels + at, sizeof(uint64_t));
+        else
+            gpu_pack_float3(to, 0,
+                            scene_texel(fill->texture, fill->level, (uint32_t)(at % level->width),
+                                        (uint32_t)(at / level->width)));
 }
 
-static void fill_rows(void *context, size_t begin, size_t end) {
+static void fill_words(void *context, size_t begin, size_t end) {
     const struct filling *fill = context;
     const struct scene_level *level = &fill->texture->levels[fill->level];
-    for (size_t y = begin; y < end; y++)
-        for (uint32_t x = 0; x < level->width; x++)
-            put_texel(fill, x, (uint32_t)y);
+    const uint64_t all = (uint64_t)level->width * level->height;
+    const uint32_t kind = kinds[level->texels];
+    for (size_t i = begin; i < end; i++) {
+        const uint64_t at = (fill->first + i) << kind, next = at + (UINT64_C(1) << kind);
+        put_texels(fill, at, next < all ? next : all, fill->to + i);
+    }
 }
 
-static void fill_texture(const struct scene_texture *t, const struct placed_texture *placed,
-                         struct gpu_word *words) {
+void flat_texels(const struct flat_scene *flat, uint64_t begin, uint64_t end, struct gpu_word *to) {
+    for (const struct scene_texture *t = flat->scene->textures; t; t = t->next)
+        for (uint32_t i = 0; i < t->level_count; i++) {
+            const uint64_t first = flat->texels.textures[t->number].texels[i];
+            const uint64_t after = first + level_words(&t->levels[i]);
+            const uint64_t from = first > begin ? first : begin, until = after < end ? after : end;
+            struct filling fill = {t, i, from - first, to + (from - begin)};
+            if (from < until)
+                parallel_for((size_t)(until - from), PIECE_WORDS, fill_words, &fill);
+        }
+}
+
+bool flat_has_texels_of(const struct flat_scene *a, const struct flat_scene *b) {
+    const struct scene_texture *s = a->texels.words ? a->scene->textures : NULL,
+                               *t = b->texels.words ? b->scene->textures : NULL;
+    // The same pictures, as the store has them, become the same texels.
+    for (; s && t; s = s->next, t = t->next)
+        if (s->picture != t->picture || s->is_srgb != t->is_srgb)
+            return false;
+    return s == t && a->paints.count == b->paints.count && a->texels.words == b->texels.words;
+}
+
+// What says where an image's texels are, in the array of all.
+static void fill_texture(const struct scene_texture *t, const struct flat_texture *placed,
+                         struct flat_array *paints) {
     for (uint32_t i = 0; placed->table && i < TABLE_WORDS; i++)
-        gpu_pack_float(words + placed->table + i, 0, 0, srgb_decode(i / 255.0));
+        gpu_pack_float(paints->words + placed->table + i, 0, 0, srgb_decode(i / 255.0));
     for (uint32_t i = 0; i < t->level_count; i++) {
         const struct scene_level *level = &t->levels[i];
-        struct gpu_word *word = words + placed->levels + i;
-        *word =
-            (struct gpu_word){(uint32_t)placed->texels[i], level->width, level->height, kinds[level->texels]};
-        struct filling fill = {t, i, words, placed->texels[i]};
-        const bool is_copied = level->texels != SCENE_TEXELS_FLOATS;
-        parallel_for(level->height, is_copied ? level->height : PIECE_ROWS, fill_rows, &fill);
+        const uint32_t kind = kinds[level->texels];
+        paints->words[placed->levels + i] = (struct gpu_word){
+            (uint32_t)((paints->count + placed->texels[i]) << kind), level->width, level->height, kind};
     }
 }
 
@@ -166,12 +191,12 @@ static void fill_coordinates(void *context, size_t begin, size_t end) {
 }
 
 static struct gpu_paint record_of(const struct scene_material *m, int which,
-                                  const struct placed_texture *placed) {
+                                  const struct flat_texture *placed) {
     const struct scene_image *image = &m->images[which];
     struct gpu_paint record = {.flags = m->checker && m->soft ? PAINT_SOFT : 0};
     if (!shows(m, which))
         return record;
-    const struct placed_texture *at = &placed[image->texture->number];
+    const struct flat_texture *at = &placed[image->texture->number];
     record.levels = (uint32_t)at->levels;
     record.level_count = image->texture->level_count;
     record.table = (uint32_t)at->table;
@@ -188,7 +213,7 @@ static uint32_t paint_words(const struct flattening *f) {
     return f->out->is_double ? PAINT64_WORDS : PAINT_WORDS;
 }
 
-static void fill_records(const struct flattening *f, const struct placed_texture *placed) {
+static void fill_records(const struct flattening *f, const struct flat_texture *placed) {
     for (uint32_t i = 0; i < f->scene->material_count; i++)
         for (uint32_t k = 0; k < ASSETS_IMAGES; k++) {
             const struct gpu_paint record = record_of(&f->scene->materials[i], (int)k, placed);
@@ -197,13 +222,13 @@ static void fill_records(const struct flattening *f, const struct placed_texture
         }
 }
 
-static enum flatten_fault fill_all(struct flattening *f, struct placed_texture *placed) {
+static enum flatten_fault fill_all(struct flattening *f, struct flat_texture *placed) {
     uint64_t end = (uint64_t)f->scene->material_count * ASSETS_IMAGES * paint_words(f);
     for (const struct scene_texture *t = f->scene->textures; t; t = t->next)
-        place_texture(t, &end, &placed[t->number]);
+        place_texture(t, &end, &f->out->texels.words, &placed[t->number]);
     place_coordinates(f, &end);
     // Texels have 32-bit numbers.
-    if (end > UINT32_MAX >> TEXELS_BYTES) {
+    if (end + f->out->texels.words > UINT32_MAX >> TEXELS_BYTES) {
         diag_add(f->input->sink, DIAG_LIMIT, SPAN_NONE,
                  "all images together have more than 16 GiB of texels");
         return FLATTEN_REPORTED;
@@ -211,7 +236,7 @@ static enum flatten_fault fill_all(struct flattening *f, struct placed_texture *
     if (!flat_array_make(&f->out->paints, end))
         return FLATTEN_NO_MEMORY;
     for (const struct scene_texture *t = f->scene->textures; t; t = t->next)
-        fill_texture(t, &placed[t->number], f->out->paints.words);
+        fill_texture(t, &placed[t->number], &f->out->paints);
     for (uint32_t i = 0; i < f->scene->body_count; i++) {
         const struct scene_body *body = &f->scene->bodies[i];
         gpu_pack_uint(f->out->paints.words + f->out->coordinates_table + i / BODIES_PER_WORD, 0,
@@ -233,8 +258,7 @@ enum flatten_fault flatten_paints(struct flattening *f) {
     // Kernels have its binding in any case.
     if (!is_any_painted(f))
         return flat_array_make(&f->out->paints, 0) ? FLATTEN_DONE : FLATTEN_NO_MEMORY;
-    struct placed_texture *placed = heap_zeroed((size_t)f->scene->texture_count + 1, sizeof *placed);
-    const enum flatten_fault fault = placed ? fill_all(f, placed) : FLATTEN_NO_MEMORY;
-    free(placed);
-    return fault;
+    struct flat_texture *placed = heap_zeroed((size_t)f->scene->texture_count + 1, sizeof *placed);
+    f->out->texels.textures = placed;
+    return placed ? fill_all(f, placed) : FLATTEN_NO_MEMORY;
 }

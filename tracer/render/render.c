@@ -204,6 +204,24 @@ bool renderer_background(struct renderer *renderer) {
     return put;
 }
 
+static void put_paints(void *context, uint64_t offset, void *to, uint64_t bytes) {
+    const struct flat_scene *flat = context;
+    const uint64_t begin = offset / sizeof(struct gpu_word) - flat->paints.count;
+    flat_texels(flat, begin, begin + bytes / sizeof(struct gpu_word), to);
+}
+
+// Texels of images on surfaces have no second copy here either.
+bool renderer_upload_array(struct renderer *renderer, const struct renderer_array *array) {
+    struct flat_scene flat = *renderer->flat;
+    const uint64_t word = sizeof(struct gpu_word), bytes = array->array->count * word;
+    const uint64_t more = array->binding == BINDING_PAINTS ? flat.texels.words * word : 0;
+    if (more == 0)
+        return renderer_upload(renderer, array->binding, GPU_WORDS, array->array->words, bytes);
+    return renderer_upload(renderer, BINDING_PAINTS, GPU_WORDS, NULL, bytes + more) &&
+           gpu_write(renderer->gpu, renderer->buffers[BINDING_PAINTS], 0, array->array->words, bytes) &&
+           gpu_fill(renderer->gpu, renderer->buffers[BINDING_PAINTS], bytes, more, put_paints, &flat);
+}
+
 bool renderer_make_background(struct renderer *renderer) {
     const struct flat_scene *flat = renderer->flat;
     const enum gpu_use use = flat->background_texels.is_float ? GPU_TEXELS_F32 : GPU_TEXELS_U8;
@@ -232,8 +250,7 @@ static bool upload_scene(struct renderer *renderer) {
     struct renderer_array arrays[RENDERER_ARRAYS];
     const uint32_t count = renderer_arrays(renderer->flat, arrays);
     for (uint32_t i = 0; i < count; i++)
-        if (!renderer_upload(renderer, arrays[i].binding, GPU_WORDS, arrays[i].array->words,
-                             arrays[i].array->count * sizeof(struct gpu_word)))
+        if (!renderer_upload_array(renderer, &arrays[i]))
             return false;
     return renderer_make_background(renderer);
 }

@@ -124,6 +124,8 @@ struct renderer_array {
 };
 // Returns how many it has.
 uint32_t renderer_arrays(const struct flat_scene *flat, struct renderer_array out[RENDERER_ARRAYS]);
+// Makes its buffer and fills it: behind the paints with the texels of the renderer's flat scene.
+bool renderer_upload_array(struct renderer *renderer, const struct renderer_array *array);
 // Makes the buffer of a binding and fills it, unless `data` is NULL. false: see gpu_error.
 bool renderer_upload(struct renderer *renderer, uint32_t binding, enum gpu_use use, const void *data,
                      uint64_t bytes);

@@ -34,13 +34,13 @@ static void drop_buffer(struct renderer *renderer, uint32_t binding) {
     renderer->buffers[binding] = NULL;
 }
 
-static bool replace(struct renderer *renderer, uint32_t binding, const struct flat_array *now,
-                    struct render_update *done) {
-    const uint64_t bytes = now->count * sizeof *now->words;
+static bool replace(struct renderer *renderer, const struct renderer_array *now, struct render_update *done) {
+    drop_buffer(renderer, now->binding);
+    if (!renderer_upload_array(renderer, now))
+        return false;
     done->arrays++;
-    done->bytes += bytes;
-    drop_buffer(renderer, binding);
-    return renderer_upload(renderer, binding, GPU_WORDS, now->words, bytes);
+    done->bytes += gpu_buffer_bytes(renderer->buffers[now->binding]);
+    return true;
 }
 
 static bool update_arrays(struct renderer *renderer, const struct flat_scene *was,
@@ -48,9 +48,10 @@ static bool update_arrays(struct renderer *renderer, const struct flat_scene *wa
     struct renderer_array old[RENDERER_ARRAYS], now[RENDERER_ARRAYS];
     const uint32_t before = renderer_arrays(was, old), count = renderer_arrays(flat, now);
     for (uint32_t i = 0; i < count; i++) {
-        const bool fits = i < before && old[i].array->count == now[i].array->count;
+        const bool fits = i < before && old[i].array->count == now[i].array->count &&
+                          (now[i].binding != BINDING_PAINTS || flat_has_texels_of(was, flat));
         if (!(fits ? write_difference(renderer, now[i].binding, old[i].array, now[i].array, done)
-                   : replace(renderer, now[i].binding, now[i].array, done)))
+                   : replace(renderer, &now[i], done)))
             return false;
     }
     if (count < before)
@@ -109,9 +110,9 @@ bool renderer_update(struct renderer *renderer, const struct flat_scene *old, co
     // How long paths may be depends on them, too.
     if (old->light_count != flat->light_count)
         renderer->settings.width = 0;
+    renderer->flat = flat;
     if (!update_arrays(renderer, old, flat, done))
         return false;
-    renderer->flat = flat;
     if (!update_background(renderer, old, done))
         return false;
     bind_kernels(renderer);

@@ -162,15 +162,15 @@ static void broken_png_files(void **state) {
     strbuf_finish(&file);
 }
 
-// Three bytes a pixel, sixteen for the device; four rows of four channels and a megabyte for the decoder.
+// Three bytes a pixel, four for the device; four rows of four channels and a megabyte for the decoder.
 static void too_many_bytes_are_refused_before_decoding(void **state) {
     (void)state;
     static const struct {
         uint32_t width, height;
         const char *bytes, *help;
     } cases[] = {
-        {65535, 65535, "81603985411", "--limit image-memory=81603985411"},
-        {12000, 10000, "2281240576", "--limit image-memory=2281240576"},
+        {65535, 65535, "30065950711", "--limit image-memory=30065950711"},
+        {20000, 20000, "2801368576", "--limit image-memory=2801368576"},
         {INT32_MAX, INT32_MAX, "18446744073709551615", "no limit allows more than 1099511627776 bytes"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -185,6 +185,31 @@ static void too_many_bytes_are_refused_before_decoding(void **state) {
                  cases[i].width, cases[i].height, cases[i].bytes);
         expect_fault(&file, message);
         expect_fault(&file, cases[i].help);
+        strbuf_finish(&file);
+    }
+}
+
+// What a small file may take is said before anything is decoded; 16 bits take as many bytes as they have, and
+// sixteen for the device.
+static void small_files_take_little_memory(void **state) {
+    (void)state;
+    static const struct {
+        uint32_t side;
+        int bits;
+        const char *bytes; // NULL: fits
+    } cases[] = {{8192, 8, "470941696"}, {8192, 16, "1477705728"}, {5920, 8, NULL}, {3372, 16, NULL}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct strbuf file;
+        char message[256];
+        strbuf_init(&file);
+        png_put_header(&file, cases[i].side, cases[i].side, cases[i].bits, 2, 0);
+        png_put_rows(&file, "\0\1\2\3", 4);
+        snprintf(
+            message, sizeof message,
+            "with the image 'sky.png' the images take %s bytes of memory, and their files have %zu bytes; "
+            "the limit image-growth is 251658240, or 200 for each byte of the files [E501]",
+            cases[i].bytes ? cases[i].bytes : "", file.len);
+        expect_fault(&file, cases[i].bytes ? message : "the image cannot be decoded");
         strbuf_finish(&file);
     }
 }
@@ -454,6 +479,7 @@ int main(void) {
         cmocka_unit_test(what_is_ignored_is_one_note),
         cmocka_unit_test(broken_png_files),
         cmocka_unit_test(too_many_bytes_are_refused_before_decoding),
+        cmocka_unit_test(small_files_take_little_memory),
         cmocka_unit_test(a_limit_holds_for_what_is_known),
         cmocka_unit_test(a_small_file_does_not_become_large),
         cmocka_unit_test(broken_jpeg_files),
