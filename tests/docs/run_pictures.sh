@@ -12,13 +12,16 @@ alone=$4
 largest=30000 # bytes of a file
 
 # The steps of the tutorial are as large as each other, what moves is shown in nine frames; the other scenes say themselves how large they are.
-render() { # SCENE FILE
+# A picture names its scene: by its path in the repository.
+render() (# SCENE FILE
+    cd "$source" || exit
+    set -- "${1#"$source"/}" "$2"
     case $1 in
     */tutorial/*) "$glint" render "$1" --quiet --size 320x200 -o "$2" ;;
     */animation.*) "$glint" render "$1" --quiet --frames 0..99:12 --size 160x90 --quality 80 --montage -o "$2" ;;
     *) "$glint" render "$1" --quiet -o "$2" ;;
     esac
-}
+)
 
 compare() {
     "$glint" compare "$1" "$2" --max-share 0.005 --max-mae 0.0004 >compared.txt
@@ -30,7 +33,7 @@ kept() { # STEM COMMAND...: the command makes the picture in the file that is it
     ending=png
     [ ! -f "$source/docs/pictures/$stem.jpg" ] || ending=jpg
     kept=$source/docs/pictures/$stem.$ending
-    now=$stem.$ending
+    now=$work/$stem.$ending
     [ "$mode" = check ] || now=$kept
     ok "$stem: rendered" "$@" "$now"
     ok "$stem: as kept" compare "$now" "$kept"
