@@ -64,7 +64,7 @@ static bool fits_scene(struct loader *loader, struct asset_file *file, str name,
         return true;
     }
     if (loader->unfit_images.count++ == 0) {
-        loader->unfit_images.first = *file;
+        loader->unfit_images.first = asset_keep(file);
         loader->unfit_images.name = arena_copy(loader->input->arena, name);
         loader->unfit_images.first_sum = loader->held.bytes + bytes;
         loader->unfit_images.first_file_bytes = loader->held.file_bytes;
@@ -79,7 +79,7 @@ void loader_report_unfit_images(struct loader *loader) {
     const uint64_t most = loader->input->limits->value[LIMIT_IMAGE_GROWTH];
     if (count == 0)
         return;
-    asset_report_named(&loader->unfit_images.first, DIAG_LIMIT,
+    asset_report_named(loader->unfit_images.first, DIAG_LIMIT,
                        "with the image '%.*s' the images take %llu bytes of memory, and their files have "
                        "%llu bytes; the limit %s is %llu, or %d for each byte of the files",
                        STR_ARG(loader->unfit_images.name), (unsigned long long)loader->unfit_images.first_sum,
@@ -88,7 +88,7 @@ void loader_report_unfit_images(struct loader *loader) {
     if (count > 1)
         diag_note(loader->input->sink, SPAN_NONE, "%u further image%s not fit either", count - 1,
                   count == 2 ? " does" : "s do");
-    help_limit(&loader->unfit_images.first, LIMIT_IMAGE_GROWTH,
+    help_limit(loader->unfit_images.first, LIMIT_IMAGE_GROWTH,
                loader->held.bytes + loader->unfit_images.bytes);
 }
 

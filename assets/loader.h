@@ -84,7 +84,7 @@ struct loader {
     } held; // memory of the images so far, and their files
     struct {
         uint32_t count;
-        struct asset_file first;
+        struct asset_file *first;
         str name;
         uint64_t first_sum, first_file_bytes; // with the first one
         uint64_t bytes;                       // of all of them

@@ -75,6 +75,17 @@ span asset_line(struct asset_file *file, uint32_t line) {
     return at;
 }
 
+struct asset_file *asset_keep(struct asset_file *file) {
+    struct asset_file *kept = ARENA_NEW(file->input->arena, struct asset_file);
+    if (file->named_in && !file->named_in->is_binary)
+        source_of(file->named_in);
+    *kept = *file;
+    kept->text = STR("");
+    kept->document = NULL;
+    kept->named_in = file->named_in ? asset_keep(file->named_in) : NULL;
+    return kept;
+}
+
 static span named_place(struct asset_file *file) {
     return file->named_in ? asset_line(file->named_in, file->named_line) : file->named_at;
 }

@@ -61,6 +61,9 @@ bool asset_report_byte(struct asset_file *file, enum diag_code code, uint64_t by
 bool asset_only_counts(struct asset_file *file, enum diag_code code);
 // The place of a line of the file.
 span asset_line(struct asset_file *file, uint32_t line);
+// A copy in the input's arena, for what is reported where the file is named once it is closed, and those that
+// name it are.
+struct asset_file *asset_keep(struct asset_file *file);
 // Adds a diagnostic where the file is named.
 void asset_report_named(struct asset_file *file, enum diag_code code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
