@@ -279,6 +279,30 @@ static const struct scene_body *first_over(const struct scene *scene, struct tri
     return over;
 }
 
+static span label_of(const struct scene *scene, const struct scene_body *body) {
+    const struct ir_origin *places = scene->assets->origin;
+    return places ? ir_place_label(places, body->head) : SPAN_NONE;
+}
+
+// Reported at the body with which there are too many.
+static bool check_items(const struct scene *scene, struct diag_sink *sink) {
+    const struct scene_body *over = NULL;
+    uint64_t total = 0;
+    for (uint32_t i = 0; i < scene->body_count; i++) {
+        total += scene->bodies[i].shape == SCENE_SPHERE ? 1 : scene->bodies[i].triangle_count;
+        if (total > SCENE_ITEMS_MAX && !over)
+            over = &scene->bodies[i];
+    }
+    if (!over)
+        return true;
+    diag_add(
+        sink, DIAG_LIMIT, label_of(scene, over),
+        "with this body all models together show more than %u triangles, those of a mesh counted for each "
+        "model; in all they show %" PRIu64,
+        SCENE_ITEMS_MAX, total);
+    return false;
+}
+
 bool scene_check_triangles(const struct scene *scene, const struct limits *limits, struct diag_sink *sink) {
     const struct limit_info *info = limit_info(LIMIT_SCENE_TRIANGLES);
     const uint64_t most = limits->value[LIMIT_SCENE_TRIANGLES];
@@ -291,9 +315,8 @@ bool scene_check_triangles(const struct scene *scene, const struct limits *limit
     const struct scene_body *over = first_over(scene, uses, most, &total);
     free(uses);
     if (!over)
-        return true;
-    const struct ir_origin *places = scene->assets->origin;
-    diag_add(sink, DIAG_LIMIT, places ? ir_place_label(places, over->head) : SPAN_NONE,
+        return check_items(scene, sink);
+    diag_add(sink, DIAG_LIMIT, label_of(scene, over),
              "the scene has %" PRIu64 " triangles, those of a mesh counted once; the limit %s is %" PRIu64,
              total, info->name, most);
     if (total <= info->greatest)

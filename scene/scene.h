@@ -151,8 +151,10 @@ bool scene_body_bounds(const struct scene_body *body, const affine3 *map, vec3 *
 bool scene_bounds(const struct scene *scene, vec3 *lower, vec3 *upper);
 // Adds an error (E409) for each model whose box reaches beyond the coordinates that the language allows.
 void scene_check_reach(const struct scene *scene, struct diag_sink *sink);
-// Whether all bodies together have no more triangles than the limit, those of a mesh counted once; else adds
-// an error (E501).
+// Triangles and spheres that bodies may show together: their numbers share a word with what went wrong there.
+#define SCENE_ITEMS_MAX 0x3ffffffdu
+// Whether all bodies together have no more triangles than the limit, those of a mesh counted once, and show
+// no more items than can be numbered; else adds an error (E501).
 bool scene_check_triangles(const struct scene *scene, const struct limits *limits, struct diag_sink *sink);
 
 // ---- textures

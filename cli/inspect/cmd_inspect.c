@@ -10,7 +10,10 @@ static bool describe(struct session *session, bool as_json, struct strbuf *out) 
         return false;
     struct flat_input input = precision_input(session, &view);
     input.sharing = FLAT_CHEAPER;
-    if (!precision_forecast(session, &input, &scene.precision) || !flatten(&input, &scene.flat))
+    if (!precision_forecast(session, &input, &scene.precision))
+        return false;
+    input.is_double = precision_is_double(session->scene, &scene.precision);
+    if (!flatten(&input, &scene.flat))
         return false;
     ir_features_explain(session->scene, &session->origin, &scene.reasons);
     (as_json ? inspect_scene_json : inspect_scene_text)(&scene, out);

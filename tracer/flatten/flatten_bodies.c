@@ -19,7 +19,7 @@ enum {
 
 // ---- counting and measuring
 
-static span place_of(const struct flattening *f, const struct scene_body *body) {
+span flatten_place(const struct flattening *f, const struct scene_body *body) {
     const struct ir_origin *places = f->scene->assets->origin;
     return places ? ir_place_label(places, body->head) : SPAN_NONE;
 }
@@ -35,12 +35,7 @@ enum flatten_fault flatten_count(struct flattening *f) {
         total += body->triangle_count;
     }
     // What a fault has room for, and the numbers of items (flatten_instances.c).
-    if (total + f->out->sphere_count >= FAULT_NESTED) {
-        diag_add(f->input->sink, DIAG_LIMIT, SPAN_NONE,
-                 "all models together show %" PRIu64 " triangles; at most %u can be told apart", total,
-                 FAULT_NESTED - 1);
-        return FLATTEN_REPORTED;
-    }
+    _Static_assert(SCENE_ITEMS_MAX < FAULT_NESTED, "");
     f->triangle_total = (uint32_t)total;
     return FLATTEN_DONE;
 }
@@ -85,7 +80,7 @@ static enum flatten_fault measure_mesh(const struct flattening *f, const struct 
     if (farthest <= COORDINATE_MAX)
         return FLATTEN_DONE;
     diag_add(
-        f->input->sink, DIAG_TRANSFORM_OVERFLOW, place_of(f, body),
+        f->input->sink, DIAG_TRANSFORM_OVERFLOW, flatten_place(f, body),
         "after scale, rotation and translation this model has coordinates of %.3g; at most 1e18 is allowed",
         farthest);
     return FLATTEN_REPORTED;

@@ -366,7 +366,10 @@ static enum flatten_fault check_counts(const struct flattening *f) {
     const struct limit_info *info = limit_info(LIMIT_SCENE_TRIANGLES);
     if (copied <= most)
         return FLATTEN_DONE;
-    diag_add(f->input->sink, DIAG_LIMIT, SPAN_NONE,
+    uint32_t own = 0; // the first that has some
+    while (own + 1 < f->scene->body_count && (!f->scene->bodies[own].mesh || flatten_shared(f, own)))
+        own++;
+    diag_add(f->input->sink, DIAG_LIMIT, flatten_place(f, &f->scene->bodies[own]),
              "models have %" PRIu64 " triangles of their own, because %s; the limit %s is %" PRIu64, copied,
              f->input->sharing == FLAT_COPIES ? "none can share a mesh here"
                                               : "not all that show the same mesh can share it",
