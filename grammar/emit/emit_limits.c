@@ -53,7 +53,9 @@ static const char closing[] =
     "models\n"
     "show count once where that saves 32 MiB, so that 10 000 models of it need the buffer of one: let models "
     "share a\n"
-    "mesh, and `glint inspect` says what they share and how large each buffer is. The reference (`--stats`, "
+    "mesh, and `glint inspect` says what they share and how large each buffer is. All of them together may "
+    "show\n"
+    "2^30 - 3 triangles; more are an error of `check`, too. The reference (`--stats`, "
     "`--audit`,\n"
     "`--device reference`) shares them too; of what is not shared it takes 280 bytes a triangle.\n";
 
