@@ -279,7 +279,7 @@ static const struct scene_body *first_over(const struct scene *scene, struct tri
     return over;
 }
 
-static span label_of(const struct scene *scene, const struct scene_body *body) {
+span scene_body_label(const struct scene *scene, const struct scene_body *body) {
     const struct ir_origin *places = scene->assets->origin;
     return places ? ir_place_label(places, body->head) : SPAN_NONE;
 }
@@ -296,7 +296,7 @@ static bool check_items(const struct scene *scene, struct diag_sink *sink) {
     if (!over)
         return true;
     diag_add(
-        sink, DIAG_LIMIT, label_of(scene, over),
+        sink, DIAG_LIMIT, scene_body_label(scene, over),
         "with this body all models together show more than %u triangles, those of a mesh counted for each "
         "model; in all they show %" PRIu64,
         SCENE_ITEMS_MAX, total);
@@ -316,7 +316,7 @@ bool scene_check_triangles(const struct scene *scene, const struct limits *limit
     free(uses);
     if (!over)
         return check_items(scene, sink);
-    diag_add(sink, DIAG_LIMIT, label_of(scene, over),
+    diag_add(sink, DIAG_LIMIT, scene_body_label(scene, over),
              "the scene has %" PRIu64 " triangles, those of a mesh counted once; the limit %s is %" PRIu64,
              total, info->name, most);
     if (total <= info->greatest)

@@ -151,6 +151,8 @@ bool scene_body_bounds(const struct scene_body *body, const affine3 *map, vec3 *
 bool scene_bounds(const struct scene *scene, vec3 *lower, vec3 *upper);
 // Adds an error (E409) for each model whose box reaches beyond the coordinates that the language allows.
 void scene_check_reach(const struct scene *scene, struct diag_sink *sink);
+// Where the scene file names a body; SPAN_NONE for a scene without places.
+span scene_body_label(const struct scene *scene, const struct scene_body *body);
 // Triangles and spheres that bodies may show together: their numbers share a word with what went wrong there.
 #define SCENE_ITEMS_MAX 0x3ffffffdu
 // Whether all bodies together have no more triangles than the limit, those of a mesh counted once, and show

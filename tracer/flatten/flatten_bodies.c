@@ -19,11 +19,6 @@ enum {
 
 // ---- counting and measuring
 
-span flatten_place(const struct flattening *f, const struct scene_body *body) {
-    const struct ir_origin *places = f->scene->assets->origin;
-    return places ? ir_place_label(places, body->head) : SPAN_NONE;
-}
-
 enum flatten_fault flatten_count(struct flattening *f) {
     uint64_t total = 0;
     if (!scene_check_triangles(f->scene, f->input->limits, f->input->sink))
@@ -80,7 +75,7 @@ static enum flatten_fault measure_mesh(const struct flattening *f, const struct 
     if (farthest <= COORDINATE_MAX)
         return FLATTEN_DONE;
     diag_add(
-        f->input->sink, DIAG_TRANSFORM_OVERFLOW, flatten_place(f, body),
+        f->input->sink, DIAG_TRANSFORM_OVERFLOW, scene_body_label(f->scene, body),
         "after scale, rotation and translation this model has coordinates of %.3g; at most 1e18 is allowed",
         farthest);
     return FLATTEN_REPORTED;

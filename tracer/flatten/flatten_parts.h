@@ -67,8 +67,6 @@ struct flattening {
 
 // ---- flatten_bodies.c
 
-// Where the scene file names a body.
-span flatten_place(const struct flattening *f, const struct scene_body *body);
 // Numbers the triangles and checks the limits.
 enum flatten_fault flatten_count(struct flattening *f);
 // An extent of all bodies: its power of two is that of the largest |coordinate - origin|, in scene units.

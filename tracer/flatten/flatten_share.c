@@ -369,7 +369,7 @@ static enum flatten_fault check_counts(const struct flattening *f) {
     uint32_t own = 0; // the first that has some
     while (own + 1 < f->scene->body_count && (!f->scene->bodies[own].mesh || flatten_shared(f, own)))
         own++;
-    diag_add(f->input->sink, DIAG_LIMIT, flatten_place(f, &f->scene->bodies[own]),
+    diag_add(f->input->sink, DIAG_LIMIT, scene_body_label(f->scene, &f->scene->bodies[own]),
              "models have %" PRIu64 " triangles of their own, because %s; the limit %s is %" PRIu64, copied,
              f->input->sharing == FLAT_COPIES ? "none can share a mesh here"
                                               : "not all that show the same mesh can share it",
