@@ -11,10 +11,6 @@ static bool is_line_end(char c) {
     return c == '\n' || c == '\r';
 }
 
-static bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
 // Length of the line end at `p`, 0 if there is none.
 static size_t line_end_length(const char *p, const char *end) {
     if (p == end || !is_line_end(*p))
@@ -97,7 +93,7 @@ bool obj_lex_integer(struct obj_lex *lex, int64_t *value) {
         p++;
     const char *begin = p;
     int64_t n = 0;
-    for (; p < lex->end && is_digit(*p); p++)
+    for (; p < lex->end && char_is_digit(*p); p++)
         n = n < INT64_C(1) << 36 ? n * 10 + (*p - '0') : INT64_C(1) << 40;
     if (p == begin)
         return false;

@@ -21,17 +21,13 @@ static const double powers_of_ten[POWER_EXACT + 1] = {1e0,  1e1,  1e2,  1e3,  1e
                                                       1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                       1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-static bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
 static bool equals_nocase(str s, const char *word) {
     return s.len == strlen(word) && str_ends_with_nocase(s, word);
 }
 
 // HYPHEN to HORIZONTAL BAR and MINUS SIGN, which a text processor or a web page writes for '-'.
 static bool begins_with_dash(str s) {
-    if (utf8_sequence_length(s, 0) != 3 || s.len < 4 || !(is_digit(s.ptr[3]) || s.ptr[3] == '.'))
+    if (utf8_sequence_length(s, 0) != 3 || s.len < 4 || !(char_is_digit(s.ptr[3]) || s.ptr[3] == '.'))
         return false;
     uint32_t c = utf8_decode(s, 0);
     return (c >= 0x2010 && c <= 0x2015) || c == 0x2212;
@@ -59,10 +55,10 @@ static enum number_status explain_no_number(str text) {
         return NUMBER_HEX;
     if (s.len > 2 && s.ptr[0] == '0' && (s.ptr[1] == 'o' || s.ptr[1] == 'O'))
         return NUMBER_OCTAL;
-    if (s.len == 0 || !(is_digit(s.ptr[0]) || s.ptr[0] == '.'))
+    if (s.len == 0 || !(char_is_digit(s.ptr[0]) || s.ptr[0] == '.'))
         return NUMBER_NOT_A_NUMBER;
     size_t end = 0;
-    while (end < s.len && (is_digit(s.ptr[end]) || s.ptr[end] == '.'))
+    while (end < s.len && (char_is_digit(s.ptr[end]) || s.ptr[end] == '.'))
         end++;
     if (end == s.len || ends_in_exponent(s, end))
         return NUMBER_NOT_A_NUMBER;
@@ -109,7 +105,7 @@ static long scan_exponent(str s, size_t at, size_t *length) {
     size_t first = at + 1 + sign;
     long value = 0;
     size_t n = 0;
-    for (; first + n < s.len && is_digit(s.ptr[first + n]); n++)
+    for (; first + n < s.len && char_is_digit(s.ptr[first + n]); n++)
         if (value < EXPONENT_FULL)
             value = value * 10 + (s.ptr[first + n] - '0');
     *length = n ? 1 + sign + n : 0;

@@ -20,6 +20,9 @@ typedef struct {
 // The two arguments of a `%.*s` conversion.
 #define STR_ARG(s) (int)((s).len), (s).ptr
 
+static inline bool char_is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
 static inline bool char_is_break(char c) {
     return c == '\n' || c == '\r';
 }

@@ -1,4 +1,4 @@
-// XXH64, the 64-bit hash of Yann Collet's xxHash, from its specification: fast, well spread, not for secrets.
+// XXH64, the 64-bit hash of Yann Collet's xxHash, by the header of his library: fast, well spread, not for secrets.
 // Thread safety: a state belongs to one thread.
 #ifndef GLINT_CORE_XXH64_H
 #define GLINT_CORE_XXH64_H
@@ -7,11 +7,7 @@
 #include <stdint.h>
 
 struct xxh64 {
-    uint64_t lanes[4];
-    uint64_t seed;
-    uint64_t total_bytes;
-    unsigned char rest[32];
-    size_t rest_count;
+    uint64_t words[11]; // the library's own state
 };
 
 void xxh64_begin(struct xxh64 *state, uint64_t seed);

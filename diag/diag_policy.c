@@ -6,10 +6,6 @@
 const char *const diag_level_words[] = {"error", "warning", "note", "off", NULL};
 const char *const diag_fail_words[] = {"error", "warning", NULL};
 
-static bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
 static char upper(char c) {
     return c >= 'a' && c <= 'z' ? (char)(c - 'a' + 'A') : c;
 }
@@ -19,8 +15,8 @@ bool diag_is_code_text(str text) {
         return false;
     char letter = upper(text.ptr[0]);
     bool family = upper(text.ptr[2]) == 'X' && upper(text.ptr[3]) == 'X';
-    bool digits = is_digit(text.ptr[2]) && is_digit(text.ptr[3]);
-    return (letter == 'E' || letter == 'W' || letter == 'N') && is_digit(text.ptr[1]) && (family || digits);
+    bool digits = char_is_digit(text.ptr[2]) && char_is_digit(text.ptr[3]);
+    return (letter == 'E' || letter == 'W' || letter == 'N') && char_is_digit(text.ptr[1]) && (family || digits);
 }
 
 bool diag_code_matches(enum diag_code code, str text) {

@@ -11,10 +11,6 @@
 static bool is_alpha(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
-static bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
 // Words that some version of YAML reads as a boolean or as null, in any case.
 static bool is_reserved(str text) {
     static const char *const words[] = {"y",    "n",     "yes",  "no",  "on",  "off",
@@ -55,7 +51,7 @@ static bool is_plain(str text, bool in_flow) {
         return false;
     for (size_t i = 0; i < text.len; i++) {
         char c = text.ptr[i];
-        bool usual = is_alpha(c) || is_digit(c) || (unsigned char)c >= 0x80;
+        bool usual = is_alpha(c) || char_is_digit(c) || (unsigned char)c >= 0x80;
         if (c == '\0' || !(usual || strchr(in_flow ? "_-./ +()" : "_-./ +(),;'!?=", c)))
             return false;
     }

@@ -5,6 +5,7 @@
 // the mesh's nearest and farthest points; two meshes by faces that cut each other, and else by points just
 // below the faces of one that are inside the other. Bodies that touch are apart: a share of the smaller one's
 // size counts as touching, since what is written with few digits overlaps by a hair.
+#include "core/angle.h"
 #include "lint/body_pairs.h"
 #include "lint/box_tree.h"
 #include "lint/lint_parts.h"
@@ -307,7 +308,7 @@ static int compare_overlaps(const void *left, const void *right) {
 static double volume_of(const struct lint_body *body) {
     const double r = body->is->radius;
     if (body->is->shape == SCENE_SPHERE)
-        return 4.0 / 3 * 3.14159265358979323846 * r * r * r;
+        return 4.0 / 3 * PI * r * r * r;
     return fabs(body->mesh->mesh->volume * mat3_determinant(body->is->object_to_world.linear));
 }
 

@@ -1,5 +1,6 @@
 #include "motion/expression.h"
 
+#include "core/angle.h"
 #include "core/heap.h"
 #include "core/number.h"
 
@@ -73,10 +74,6 @@ static bool take(struct scan *s, char c) {
         return false;
     s->at++;
     return true;
-}
-
-static bool is_digit(char c) {
-    return c >= '0' && c <= '9';
 }
 
 static bool is_letter(char c) {
@@ -179,7 +176,7 @@ static const struct function {
 static const struct constant {
     const char *name;
     double value;
-} constants[] = {{"pi", 3.14159265358979323846}, {"tau", 6.28318530717958647692}};
+} constants[] = {{"pi", PI}, {"tau", 6.28318530717958647692}};
 
 enum {
     FUNCTIONS = sizeof functions / sizeof *functions,
@@ -199,7 +196,7 @@ unsigned expression_inexact(str text) {
     unsigned used = (text.len && memchr(text.ptr, '^', text.len)) ? 1u << FUNCTIONS : 0;
     for (size_t at = 0; at < text.len; at++) {
         const size_t begin = at;
-        while (at < text.len && (is_letter(text.ptr[at]) || is_digit(text.ptr[at])))
+        while (at < text.len && (is_letter(text.ptr[at]) || char_is_digit(text.ptr[at])))
             at++;
         for (int i = 0; i < FUNCTIONS; i++)
             if (functions[i].is_inexact && str_equal_cstr(str_slice(text, begin, at), functions[i].name))
@@ -254,7 +251,7 @@ static bool call(struct scan *s, int function, size_t begin) {
 
 static bool name(struct scan *s) {
     const size_t begin = s->at;
-    while (s->at < s->text.len && (is_letter(s->text.ptr[s->at]) || is_digit(s->text.ptr[s->at])))
+    while (s->at < s->text.len && (is_letter(s->text.ptr[s->at]) || char_is_digit(s->text.ptr[s->at])))
         s->at++;
     const str word = str_slice(s->text, begin, s->at);
     if (take(s, '(')) {
@@ -281,7 +278,7 @@ static bool number(struct scan *s) {
     while (s->at < s->text.len) {
         const char c = s->text.ptr[s->at];
         const bool exponent = (c == 'e' || c == 'E') && s->at > begin;
-        if (!is_digit(c) && c != '.' && !exponent)
+        if (!char_is_digit(c) && c != '.' && !exponent)
             break;
         s->at++;
         if (exponent && s->at < s->text.len && (s->text.ptr[s->at] == '-' || s->text.ptr[s->at] == '+'))
@@ -295,7 +292,7 @@ static bool number(struct scan *s) {
 
 static bool atom(struct scan *s) {
     const char c = next(s);
-    if (is_digit(c) || c == '.')
+    if (char_is_digit(c) || c == '.')
         return number(s);
     if (is_letter(c))
         return name(s);

@@ -1,5 +1,6 @@
 // Where light comes from: lights with their shadows, and the background (docs/language.md, "Hit" and
 // "Background").
+#include "core/angle.h"
 #include "core/srgb.h"
 #include "reference/parts.h"
 
@@ -7,7 +8,6 @@
 
 #include <string.h>
 
-#define PI 3.14159265358979323846
 // Less than the smallest normal float adds nothing that a picture could hold: tails of highlights.
 #define LEAST_LIGHT 0x1p-126
 

@@ -5,6 +5,7 @@
 // Boksansky, Belcour, Panteleev and Wright 2021, "Improved Shader and Texture Level of Detail Using Ray
 // Cones"). How coordinates change across it is found by differences, not by derivatives: so nothing here is
 // what the device does.
+#include "core/angle.h"
 #include "reference/parts.h"
 
 #include "grammar/ir.h"
@@ -12,8 +13,6 @@
 enum {
     TAPS_MAX = 15, // odd
 };
-
-#define PI 3.14159265358979323846
 
 // ---- cones
 

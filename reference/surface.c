@@ -1,4 +1,5 @@
 // What a ray hit, and where light comes from that leaves it (docs/language.md, "Hit" and "Checker").
+#include "core/angle.h"
 #include "reference/exact.h"
 #include "reference/parts.h"
 
@@ -208,7 +209,7 @@ void reference_roughen(const struct reference *r, struct surface *s, vec3 direct
     const vec3 ray = vec3_neg(direction);
     const vec3 seen =
         vec3_unit((vec3){s->alpha * vec3_dot(ray, a), s->alpha * vec3_dot(ray, b), vec3_dot(ray, n)});
-    const double height = (1 - v) * (1 + seen.z) - seen.z, angle = 2 * 3.14159265358979323846 * u;
+    const double height = (1 - v) * (1 + seen.z) - seen.z, angle = 2 * PI * u;
     const double ring = sqrt(fmax(1 - height * height, 0));
     const vec3 half_way = vec3_add(seen, (vec3){ring * cos(angle), ring * sin(angle), height});
     const vec3 facet =

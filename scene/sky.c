@@ -1,5 +1,6 @@
 #include "scene/sky.h"
 
+#include "core/angle.h"
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "core/srgb.h"
@@ -8,8 +9,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define PI 3.14159265358979323846
 
 enum {
     PIECE_ROWS = 16,

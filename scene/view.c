@@ -1,12 +1,11 @@
 #include "scene/view.h"
 
+#include "core/angle.h"
 #include "grammar/ir.h"
 #include "scene/transform.h"
 #include <stdlib.h>
 #include <string.h>
 
-#define PI     3.14159265358979323846
-#define DEGREE 0.017453292519943295769 // pi / 180
 
 // ---- the camera
 
@@ -25,7 +24,7 @@ static void orient(struct view_camera *camera, vec3 forward, vec3 up) {
 }
 
 static double tan_half(double degrees) {
-    return degrees == 90 ? 1 : tan(degrees / 2 * DEGREE);
+    return degrees == 90 ? 1 : tan(degrees / 2 * RADIANS);
 }
 
 // Of a field that a perspective view can have: what is about as large as the view of another projection.
@@ -41,7 +40,7 @@ static struct view_camera turned_camera(const struct ir_camera *ir) {
                                  .tan_half_fov = alike_tan(ir),
                                  .projection = ir->projection,
                                  .half_height = ir->size / 2,
-                                 .half_field = ir->fov / 2 * DEGREE};
+                                 .half_field = ir->fov / 2 * RADIANS};
     if (ir->view == IR_VIEW_ROTATION) {
         mat3 turn = mat3_rotation(ir->rotation);
         camera.right = mat3_column(turn, 0);
@@ -132,7 +131,7 @@ static void put_extent(struct view_light *light, const struct ir_light *ir) {
         light->radius = ir->radius;
     } else if (ir->kind == IR_LIGHT_DIRECTION && ir->angle > 0) {
         light->extent = VIEW_DISC;
-        light->half_angle = ir->angle / 2 * DEGREE;
+        light->half_angle = ir->angle / 2 * RADIANS;
     }
 }
 
@@ -305,8 +304,8 @@ struct view_ray view_ray_at(const struct view_camera *camera, double aspect, dou
                 vec3_add(vec3_mul(f, cos(angle)), vec3_mul(across, camera->half_field * sin(angle) / angle));
         break;
     case IR_PROJECTION_PANORAMA: {
-        const vec3 level = vec3_add(vec3_mul(f, cos(x * 180 * DEGREE)), vec3_mul(s, sin(x * 180 * DEGREE)));
-        ray.direction = vec3_add(vec3_mul(level, cos(y * 90 * DEGREE)), vec3_mul(u, sin(y * 90 * DEGREE)));
+        const vec3 level = vec3_add(vec3_mul(f, cos(x * 180 * RADIANS)), vec3_mul(s, sin(x * 180 * RADIANS)));
+        ray.direction = vec3_add(vec3_mul(level, cos(y * 90 * RADIANS)), vec3_mul(u, sin(y * 90 * RADIANS)));
         break;
     }
     default:

@@ -1,9 +1,8 @@
 // Where a picture shows a point, for each projection: the inverse of view_ray_at.
+#include "core/angle.h"
 #include "scene/view.h"
 
 #include "grammar/ir.h"
-
-#define PI 3.14159265358979323846
 
 // Of a point in the middle of a view to all sides, or right behind it, sine and angle are taken as this.
 static const double SINE_LEAST = 1e-9;

@@ -17,7 +17,7 @@ cd "$folder"
 suite=bookworm
 kind=deb-src
 . "$here/tools/apt_apart.sh"
-(cd sources && apt-get source -qq libyaml expat jansson zlib libpng1.6 libjpeg-turbo >../sources.log 2>&1) || {
+(cd sources && apt-get source -qq libyaml expat jansson zlib libpng1.6 libjpeg-turbo xxhash >../sources.log 2>&1) || {
     cat sources.log
     exit 1
 }
@@ -71,6 +71,7 @@ mkdir -p build
 lto=-flto # what glint never calls is left out with it
 library sources/libyaml-* -DBUILD_TESTING=OFF
 package yaml-0.1 yaml "$(basename sources/libyaml-* | sed 's/.*-//')"
+cp sources/xxhash-*/xxhash.h root/include
 library "$(ls -d sources/expat-*/expat)" -DEXPAT_BUILD_TOOLS=OFF -DEXPAT_BUILD_EXAMPLES=OFF -DEXPAT_BUILD_TESTS=OFF \
     -DEXPAT_SHARED_LIBS=OFF -DEXPAT_BUILD_DOCS=OFF -DEXPAT_DTD=OFF -DEXPAT_NS=OFF -DEXPAT_CONTEXT_BYTES=0 -DEXPAT_MIN_SIZE=ON -DCMAKE_C_FLAGS="-ffp-contract=off $lto -DXML_DTD=1" # patched: == 1
 library sources/jansson-* -DJANSSON_BUILD_DOCS=OFF -DJANSSON_WITHOUT_TESTS=ON -DJANSSON_EXAMPLES=OFF

@@ -1,5 +1,6 @@
 #include "app/around/around.h"
 
+#include "core/angle.h"
 #include "grammar/ir.h"
 #include "grammar/mesh_format.h"
 #include "grammar/schema.h"
@@ -8,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define RADIAN (3.14159265358979323846 / 180)
+
 
 // Degrees: the view is turned and lowered by these, and so narrow that the floor, which it looks down on at
 // least by ELEVATION - FOV / 2, is all that is behind the mesh.
@@ -86,7 +87,7 @@ static bool find_box(const struct around_input *in, struct frame *f) {
 static void place_camera(const struct around_input *in, const struct ir_image *image, struct frame *f) {
     const mat3 turn = mat3_rotation((vec3){-ELEVATION, AZIMUTH, 0});
     const vec3 right = mat3_column(turn, 0), up = mat3_column(turn, 1), back = mat3_column(turn, 2);
-    const double tall = tan(FOV / 2 * RADIAN);
+    const double tall = tan(FOV / 2 * RADIANS);
     const double wide =
         tall * (in->width > 0 ? in->width : image->width) / (in->height > 0 ? in->height : image->height);
     vec3 middle = vec3_mul(vec3_add(f->lower, f->upper), 0.5);

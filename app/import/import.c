@@ -4,12 +4,12 @@
 #include "app/import/place.h"
 #include "assets/gltf/fields.h"
 #include "assets/gltf/material.h"
+#include "core/angle.h"
 #include "grammar/ir.h"
 #include "grammar/schema.h"
 
 #include <math.h>
 
-#define PI         3.14159265358979323846
 #define TOO_STRONG 30.0
 #define LUMENS     683.0 // per watt, of green light
 

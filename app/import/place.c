@@ -1,6 +1,7 @@
 #include "app/import/place.h"
 
-#define PI      3.14159265358979323846
+#include "core/angle.h"
+
 #define DEGREES (180 / PI)
 #define SHEAR   1e-6 // cosine between two axes that still counts as a right angle
 #define LEAST   1e-18

@@ -6,10 +6,6 @@ enum {
     WORD_MOST = 1000 // bytes
 };
 
-static bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
 // What number_take does not decide: long mantissas, large exponents, and all that is not a number. The
 // language's own grammar finds what is wrong; only leading zeros are removed before.
 static enum number_status slow_number(str word, double *value) {
@@ -20,7 +16,7 @@ static enum number_status slow_number(str word, double *value) {
         return NUMBER_TOO_LONG;
     if (at < word.len && (word.ptr[at] == '+' || word.ptr[at] == '-'))
         copy[length++] = word.ptr[at++];
-    while (at + 1 < word.len && word.ptr[at] == '0' && is_digit(word.ptr[at + 1]))
+    while (at + 1 < word.len && word.ptr[at] == '0' && char_is_digit(word.ptr[at + 1]))
         at++;
     memcpy(copy + length, word.ptr + at, word.len - at);
     enum number_status status = number_parse((str){copy, length + word.len - at}, value);

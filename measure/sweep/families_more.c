@@ -1,7 +1,6 @@
 // What magnifies, repeats, stretches and touches.
+#include "core/angle.h"
 #include "measure/sweep/sweep_parts.h"
-
-static const double PI = 3.14159265358979323846;
 
 void sweep_make_blinds(struct sweep_writer *w) {
     const uint32_t count = sweep_count(w, 20, 80);

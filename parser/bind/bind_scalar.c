@@ -4,6 +4,7 @@
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"
 
+#include "core/angle.h"
 #include "core/heap.h"
 #include "core/nearest.h"
 #include "core/number.h"
@@ -259,8 +260,6 @@ static bool is_scalar(struct bind_context *context, struct bind_subject subject,
         return bind_wrong_shape(context, subject, node);
     return true;
 }
-
-#define PI 3.14159265358979323846
 
 // How many multiples of pi/12, which are 15 degrees, the text writes to all of its decimals; 0: it is not
 // one. With fewer than three decimals only the best known ones count.

@@ -7,9 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
 static bool is_lower(char c) {
     return c >= 'a' && c <= 'z';
 }
@@ -39,7 +36,7 @@ static str hex_as_decimal(struct arena *arena, str text) {
 
 static str leading_number(str text) {
     size_t end = 0;
-    while (end < text.len && (is_digit(text.ptr[end]) || strchr("+-.", text.ptr[end])))
+    while (end < text.len && (char_is_digit(text.ptr[end]) || strchr("+-.", text.ptr[end])))
         end++;
     return str_slice(text, 0, end);
 }
@@ -47,7 +44,7 @@ static str leading_number(str text) {
 static str without_leading_zeros(struct arena *arena, str text) {
     size_t sign = text.ptr[0] == '-' || text.ptr[0] == '+' ? 1 : 0;
     size_t first = sign;
-    while (first + 1 < text.len && text.ptr[first] == '0' && is_digit(text.ptr[first + 1]))
+    while (first + 1 < text.len && text.ptr[first] == '0' && char_is_digit(text.ptr[first + 1]))
         first++;
     return arena_format(arena, "%.*s%.*s", (int)sign, text.ptr, STR_ARG(str_slice(text, first, text.len)));
 }
@@ -178,10 +175,10 @@ str mend_boolean(str text) {
 }
 
 str mend_name(struct arena *arena, str text) {
-    str copy = arena_format(arena, "%s%.*s", text.len && is_digit(text.ptr[0]) ? "_" : "", STR_ARG(text));
+    str copy = arena_format(arena, "%s%.*s", text.len && char_is_digit(text.ptr[0]) ? "_" : "", STR_ARG(text));
     char *c = (char *)copy.ptr;
     for (size_t i = 0; i < copy.len; i++)
-        if ((unsigned char)c[i] < 0x80 && !is_digit(c[i]) && !is_lower(c[i]) && !is_upper(c[i]) &&
+        if ((unsigned char)c[i] < 0x80 && !char_is_digit(c[i]) && !is_lower(c[i]) && !is_upper(c[i]) &&
             c[i] != '-')
             c[i] = '_';
     return copy;
@@ -199,7 +196,7 @@ static str put_snake(char *out, str text) {
     size_t length = 0;
     for (size_t i = 0; i < text.len; i++) {
         char c = text.ptr[i];
-        bool begins = is_upper(c) && i > 0 && (is_lower(text.ptr[i - 1]) || is_digit(text.ptr[i - 1]));
+        bool begins = is_upper(c) && i > 0 && (is_lower(text.ptr[i - 1]) || char_is_digit(text.ptr[i - 1]));
         if (begins)
             out[length++] = '_';
         out[length++] = is_upper(c) ? (char)(c - 'A' + 'a') : c == '-' || c == ' ' ? '_' : c;

@@ -93,10 +93,6 @@ static const struct yaml_words *find_words(const char *problem, const char *cont
     return NULL;
 }
 
-static bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
 // One character, or nothing at a line's end.
 static span character_at(const struct yaml_reader *r, uint32_t at) {
     str text = r->text->bytes;
@@ -256,7 +252,7 @@ static bool report_dash(struct yaml_reader *r, uint32_t begin) {
     diag_add(&r->sink, DIAG_YAML_SYNTAX, word_at(r, begin), "a space is missing after the '-'");
     diag_help(&r->sink, "write '- %.*s'",
               STR_ARG(reader_clip(str_slice(r->text->bytes, begin + 1, word_at(r, begin).end))));
-    diag_fix(&r->sink, !is_digit(yaml_char(r, begin + 1)), yaml_span(r, begin + 1, begin + 1), STR(" "));
+    diag_fix(&r->sink, !char_is_digit(yaml_char(r, begin + 1)), yaml_span(r, begin + 1, begin + 1), STR(" "));
     return true;
 }
 
@@ -350,7 +346,7 @@ static void report_row(struct yaml_reader *r, const struct yaml_words *row, uint
         help_pair(r, source_text(r->context->sources, word_at(r, at)), rest_of_line(r, word_at(r, at).end));
     else if (strstr(row->problem, "expected ','") && precedes(r, at, '='))
         diag_help(&r->sink, "a key and its value are joined by ':', not by '='");
-    else if (strstr(row->problem, "block sequence") && is_digit(yaml_char(r, at + 2)))
+    else if (strstr(row->problem, "block sequence") && char_is_digit(yaml_char(r, at + 2)))
         diag_help(&r->sink, "a negative number has no space after the '-': -%c", yaml_char(r, at + 2));
     else if (row->help)
         diag_help(&r->sink, "%s", row->help);

@@ -5,6 +5,7 @@
 // that can be shown, to L*a*b* with the Hunt effect, HyAB distance, redistributed to 0..1 (4.1.2, 4.1.3).
 // Features: edges and points of the luminance (4.2). Together: colour^(1 - feature) (4.3). Filters are sums
 // of products of one-dimensional ones, so that each is two passes.
+#include "core/angle.h"
 #include "core/heap.h"
 #include "picture/metrics/metrics_parts.h"
 
@@ -16,7 +17,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846;
 static const double Q_COLOR = 0.7, P_COLOR = 0.4, P_SHOWN = 0.95; // of equation 6 and its redistribution
 static const double FEATURE_WIDTH = 0.082, Q_FEATURE = 0.5;       // degrees; of section 4.2
 

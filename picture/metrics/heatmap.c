@@ -1,5 +1,6 @@
 #include "picture/metrics/heatmap.h"
 
+#include "core/angle.h"
 #include "core/heap.h"
 #include "core/srgb.h"
 #include "picture/write/encode_parts.h"
@@ -7,8 +8,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 static uint8_t srgb_byte(double linear) {
     const double c = linear > 0 ? (linear < 1 ? linear : 1) : 0;

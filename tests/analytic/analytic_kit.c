@@ -1,4 +1,5 @@
 #include "analytic_kit.h"
+#include "core/angle.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -92,7 +93,7 @@ bool analytic_take(struct analytic *analytic, const struct analytic_picture *pic
 vec3 analytic_direction(const struct analytic_picture *picture, double x, double y) {
     struct analytic_camera c = camera_of(picture);
     double width = width_of(picture), height = height_of(picture);
-    double most = tan(c.fov * (3.14159265358979323846 / 360));
+    double most = tan(c.fov * (PI / 360));
     vec3 f = vec3_unit(c.forward), s = vec3_unit(vec3_cross(f, c.up)), u = vec3_cross(s, f);
     vec3 d = vec3_add(f, vec3_mul(s, (2 * x / width - 1) * (width / height) * most));
     return vec3_unit(vec3_add(d, vec3_mul(u, (1 - 2 * y / height) * most)));

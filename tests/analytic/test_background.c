@@ -1,10 +1,9 @@
 // What rays see that meet nothing: one colour, and an equirectangular image (docs/language.md, "Background").
 #include "analytic_kit.h"
+#include "core/angle.h"
 
 #include <stdio.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 // Texels as the file holds them: 0..1, or any size for HDR.
 struct sky {

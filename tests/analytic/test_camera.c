@@ -1,10 +1,9 @@
 // Directions of pixels and samples (docs/language.md, "Camera"): seen from the middle of a sphere that shows
 // each direction, and by the share of a pixel that an edge leaves free.
 #include "analytic_kit.h"
+#include "core/angle.h"
 
 #include <stdio.h>
-
-static const double RADIANS = 3.14159265358979323846 / 180;
 
 // The camera stands anywhere; the sphere stands around it.
 static bool sphere_color(const void *context, vec3 origin, vec3 direction, double rgb[3]) {

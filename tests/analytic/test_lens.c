@@ -1,11 +1,10 @@
 // Projections, lenses and rough surfaces against closed forms (docs/language.md, "Camera" and "Roughness").
 #include "analytic_kit.h"
+#include "core/angle.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double RADIANS = 3.14159265358979323846 / 180;
 
 static struct analytic_picture picture_of(const char *name, const char *scene, const char *camera,
                                           int32_t width, int32_t height, int32_t samples) {

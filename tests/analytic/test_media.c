@@ -1,11 +1,10 @@
 // Media: layers, nested balls, total reflection between them, attenuation, Fresnel's equations and light that
 // shines through, in both precisions (docs/language.md, "Media").
 #include "analytic_kit.h"
+#include "core/angle.h"
 
 #include <stdio.h>
 #include <string.h>
-
-#define PI 3.14159265358979323846
 
 enum {
     LAYERS = 8,

@@ -2,6 +2,7 @@
 // (docs/language.md, "Paint").
 #include "analytic_kit.h"
 
+#include "core/angle.h"
 #include "picture/metrics/metrics.h"
 
 #include <png.h>
@@ -10,8 +11,6 @@
 #include <jpeglib.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 enum {
     SIDE = 256, // of the ramps: pixel x, y from the top left has x / 255, y / 255, 0.5

@@ -1,6 +1,7 @@
 // Snell's law: spheres, a slab and a prism seen by where their rays end, total reflection at the critical
 // angle, panes, and bodies of index 1 (docs/language.md, "Hit" and "Media").
 #include "analytic_kit.h"
+#include "core/angle.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -174,7 +175,7 @@ struct critical {
 
 // White from 45 degrees up, black from 45 degrees down, linear between: two rows.
 static double two_rows(vec3 d) {
-    double v = acos(d.y) / 3.14159265358979323846;
+    double v = acos(d.y) / PI;
     return fmin(1, fmax(0, 1 - (v - 0.25) * 2));
 }
 

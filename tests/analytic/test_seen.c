@@ -1,12 +1,12 @@
 // Lights that are seen (docs/language.md, "Lights that are seen"): what they look like from the front, in a
 // mirror, through a pane and in a coloured medium, and that what is seen of them is what they light by.
 #include "analytic_kit.h"
+#include "core/angle.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
 // So near an outline, as a part of the light's size, either side is right.
 #define EDGE 2e-3
 

@@ -1,6 +1,7 @@
 // Edges of hard shadows on a floor: of a rectangle, a sphere and a glass pane, from a point and from far
 // away; seen as a whole, and so near that a pixel is a tenth of a thousandth of the scene.
 #include "analytic_kit.h"
+#include "core/angle.h"
 
 #include <stdio.h>
 
@@ -87,7 +88,7 @@ static struct analytic_camera camera_at(vec3 target, double pixel) {
     vec3 position = {2, 3, 6};
     vec3 way = vec3_sub(target, position);
     double angle = 48 * pixel / vec3_length(way);
-    return (struct analytic_camera){position, way, {0, 1, 0}, angle * 180 / 3.14159265358979323846};
+    return (struct analytic_camera){position, way, {0, 1, 0}, angle * 180 / PI};
 }
 
 int main(int argc, char **argv) {

@@ -2,6 +2,7 @@
 // forms, images against sums over all directions, and how fast samples come near them, next to random ones.
 #include "analytic_kit.h"
 
+#include "core/angle.h"
 #include "picture/metrics/metrics.h"
 #include "picture/write/image.h"
 
@@ -9,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
 // An edge makes errors of n^-0.75 in the limit; what is measured varies by a hundredth or two.
 #define SLOPE (-0.73)
 

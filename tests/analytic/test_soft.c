@@ -3,13 +3,12 @@
 // 1994, "The Irradiance Jacobian"), and how fast samples come near them, next to random ones.
 #include "analytic_kit.h"
 
+#include "core/angle.h"
 #include "picture/metrics/metrics.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define PI 3.14159265358979323846
 
 enum {
     TEXT = 2048,

@@ -1,11 +1,10 @@
 // What a surface is at a point: checker cells, interpolated normals, sides, and which of two surfaces in one
 // place is seen (docs/language.md, "Checker" and "Hit").
 #include "analytic_kit.h"
+#include "core/angle.h"
 
 #include <stdio.h>
 #include <string.h>
-
-static const double RADIANS = 3.14159265358979323846 / 180;
 
 // ---- checker
 

@@ -55,6 +55,7 @@ kernels=$(ours '^shaders/.*\.(glsl|comp)$')
         if (target ~ /^cmocka/) return path ~ /^tests\//
         if (target ~ /^GLFW\//) return path == "view/window.c"
         if (target ~ /^X11\//) return path ~ /^tests\/live\//
+        if (target ~ /^xxhash/) return path ~ /^core\//
         if (target ~ /^pthread/) return path ~ /^(core|tests)\//
         return !(folder(target) in rooms)
     }

@@ -1,11 +1,12 @@
 #include "tools/meshgen/extrude.h"
 
+#include "core/angle.h"
+
 enum {
     ROUND_STEPS = 4,
     ROWS = 2 * (ROUND_STEPS + 1), // from the back face to the front face
 };
 
-static const double PI = 3.14159265358979323846;
 static const double SMOOTH_COSINE = 0.866;
 
 // A point of the outline stands in ROWS rows, once for each edge that meets there, or once for both where

@@ -1,3 +1,4 @@
+#include "core/angle.h"
 #include "tools/meshgen/generators.h"
 #include "tools/meshgen/solids.h"
 
@@ -106,7 +107,7 @@ static void add_tail(struct mesh *mesh) {
     };
     struct solids_ring rings[RINGS_MAX];
     for (int i = 0; i < 7; i++) {
-        double heading = path[i].heading_deg * 3.14159265358979323846 / 180, radius = path[i].radius;
+        double heading = path[i].heading_deg * PI / 180, radius = path[i].radius;
         vec3 across = {-sin(heading) * radius, 0, cos(heading) * radius};
         double height = i == 0 ? 0.14 : radius * 0.87 + 0.02;
         rings[i] = (struct solids_ring){

@@ -1,3 +1,4 @@
+#include "core/angle.h"
 #include "tools/meshgen/generators.h"
 
 // Proportions of a round brilliant, the girdle's radius being 1. The kites are planar because their side
@@ -12,8 +13,6 @@ static const double GIRDLE_HALF_HEIGHT = 0.02;
 enum {
     FOLDS = 8
 };
-
-static const double PI = 3.14159265358979323846;
 
 // `steps` sixteenths of a turn about y.
 static vec3 ring_point(double radius, double y, int steps) {

@@ -1,12 +1,12 @@
 #include "tools/meshgen/land.h"
 
+#include "core/angle.h"
 #include "core/parallel.h"
 #include "tools/meshgen/air.h"
 #include "tools/meshgen/noise.h"
 
 #include <stdlib.h>
 
-static const double PI = 3.14159265358979323846;
 static const double NEAREST_KM = 0.7;
 static const double FARTHEST_KM = 17;
 static const double FOREST_END_KM = 4.5;

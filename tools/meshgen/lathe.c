@@ -1,12 +1,13 @@
 #include "tools/meshgen/lathe.h"
 
+#include "core/angle.h"
 #include "core/heap.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 static int place_ring(struct mesh *mesh, struct lathe_point at, int sides) {
-    const double turn = 2 * 3.14159265358979323846 / sides;
+    const double turn = 2 * PI / sides;
     int first = 0;
     for (int k = 0; k < sides; k++) {
         const vec3 corner = {at.radius * cos(k * turn), at.y, at.radius * sin(k * turn)};

@@ -1,11 +1,12 @@
 #include "tools/meshgen/outline.h"
 
+#include "core/angle.h"
+
 #include <assert.h>
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846;
 static const double ARC_STEP_DEG = 6;
 
 // The polygon that ear clipping eats: a ring of point indices, a point that carries a bridge twice.

@@ -1,3 +1,4 @@
+#include "core/angle.h"
 #include "tools/meshgen/generators.h"
 
 // The band's middle line winds twice round the axis and three times through the hole of a torus. Its
@@ -11,7 +12,6 @@ enum {
     TURN_HALVES = 3,
 };
 
-static const double PI = 3.14159265358979323846;
 static const double TORUS_RADIUS = 1.0;
 static const double TUBE_RADIUS = 0.46;
 static const double BAND_HALF_WIDTH = 0.27;

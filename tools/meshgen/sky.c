@@ -1,3 +1,4 @@
+#include "core/angle.h"
 #include "core/parallel.h"
 #include "tools/meshgen/air.h"
 #include "tools/meshgen/generators.h"
@@ -8,7 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846;
 static const double EYE_KM = 0.022; // above the lake
 
 // Rows are made this much finer than the picture: crests and shores are the sharpest things in it.

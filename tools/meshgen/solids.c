@@ -1,10 +1,10 @@
 #include "tools/meshgen/solids.h"
 
+#include "core/angle.h"
+
 enum {
     SIDES_MAX = 12
 };
-
-static const double PI = 3.14159265358979323846;
 
 struct ring_corners {
     int index[SIDES_MAX];

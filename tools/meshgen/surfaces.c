@@ -1,4 +1,5 @@
 // Pictures for surfaces: planks of wood, and a globe of land and sea.
+#include "core/angle.h"
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "core/srgb.h"
@@ -7,8 +8,6 @@
 #include "tools/meshgen/noise.h"
 
 #include <math.h>
-
-static const double PI = 3.14159265358979323846;
 
 // The linear colour at x, y in 0..1, y upwards.
 typedef vec3 surface_colour(double x, double y);

@@ -1,11 +1,10 @@
 // What is turned on a lathe and has no inside: chess pieces, a column, a bowl, an urn; and rings.
+#include "core/angle.h"
 #include "tools/meshgen/generators.h"
 #include "tools/meshgen/lathe.h"
 #include "tools/meshgen/solids.h"
 
 #include <math.h>
-
-static const double PI = 3.14159265358979323846;
 
 enum {
     STEPS = 4,

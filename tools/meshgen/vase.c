@@ -1,3 +1,4 @@
+#include "core/angle.h"
 #include "tools/meshgen/generators.h"
 
 // Half of the section, (radius, height): up the outside, over the lip, down the inside to the floor of the
@@ -16,7 +17,7 @@ enum {
 };
 
 void vase_generate(struct mesh *mesh) {
-    const double turn = 2 * 3.14159265358979323846 / SIDES;
+    const double turn = 2 * PI / SIDES;
     for (int i = 0; i < RINGS; i++)
         for (int k = 0; k < SIDES; k++)
             mesh_vertex(mesh, (vec3){PROFILE[i].radius * cos(k * turn), PROFILE[i].y,

@@ -1,3 +1,4 @@
+#include "core/angle.h"
 #include "tools/meshgen/extrude.h"
 #include "tools/meshgen/generators.h"
 
@@ -9,7 +10,7 @@ static const double HALF_DEPTH = 0.16;
 #define SPARK_EDGE_RADIUS 0.02 // its points are thin
 
 static double degrees(double radians) {
-    return radians * 180 / 3.14159265358979323846;
+    return radians * 180 / PI;
 }
 
 // A round bowl, a stem at its right that runs down into a hook. Arcs that end in a sharp corner end in a

@@ -1,12 +1,11 @@
 // One frame: its uniforms, bands and samples.
+#include "core/angle.h"
 #include "scene/points.h"
 #include "tracer/render/render_private.h"
 
 #include <assert.h>
 #include <math.h>
 #include <string.h>
-
-static const double RADIANS = 3.14159265358979323846 / 180;
 
 static void put(float out[3], vec3 v) {
     out[0] = (float)v.x;

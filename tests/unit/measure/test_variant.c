@@ -1,5 +1,6 @@
 // Variants of a scene that extremes makes: a panel that comes down to a surface, and what is moved and scaled
 // where models are turned and stretched.
+#include "core/angle.h"
 #include "measure/extremes/extremes_parts.h"
 
 #include "assets_scene.h"
@@ -79,8 +80,7 @@ static void check_panel(vec3 edge_u, vec3 edge_v, vec3 normal, double height) {
                 NEAR * size * size);
     // As bright as what lights the camera's place by 1 (docs/language.md, "Lights that are seen").
     const vec3 way = vec3_sub(light->position, v.view.camera.position);
-    assert_close(light->radiance.x,
-                 3.14159265358979323846 * vec3_dot(way, way) / vec3_length(vec3_cross(edge_u, edge_v)));
+    assert_close(light->radiance.x, PI * vec3_dot(way, way) / vec3_length(vec3_cross(edge_u, edge_v)));
     end(&t);
 }
 

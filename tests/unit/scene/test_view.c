@@ -2,13 +2,12 @@
 #include "scene/transform.h"
 #include "scene/view.h"
 
+#include "core/angle.h"
 #include "core/srgb.h"
 
 #include "assets_scene.h"
 
 #include <math.h>
-
-#define PI 3.14159265358979323846
 
 static void assert_exact(vec3 v, double x, double y, double z) {
     if (v.x != x || v.y != y || v.z != z)

@@ -1,4 +1,5 @@
 // The proofs of glint-meshgen find every flaw that they are there for, and its outlines are cut whole.
+#include "core/angle.h"
 #include "tools/meshgen/mesh.h"
 #include "tools/meshgen/outline.h"
 #include "tools/meshgen/verify.h"
@@ -117,7 +118,7 @@ static void outline_with_a_hole_is_cut_whole(void **state) {
         assert_true(twice > 0);
         area += 0.5 * twice;
     }
-    double hole = 0.5 * hole_points * sin(2 * 3.14159265358979323846 / hole_points);
+    double hole = 0.5 * hole_points * sin(2 * PI / hole_points);
     assert_true(fabs(area - (16 - hole)) < 1e-9);
 }
 
