@@ -24,7 +24,8 @@ size_t limits_size(const struct limits *limits, enum limit which) {
     return value < SIZE_MAX / 2 ? (size_t)value : SIZE_MAX / 2;
 }
 
-bool limit_find(str name, enum limit *which) {
+// The two halves of it.
+static bool limit_find(str name, enum limit *which) {
     for (int i = 0; i < LIMIT_COUNT; i++)
         if (str_equal_cstr(name, infos[i].name)) {
             *which = (enum limit)i;

@@ -35,8 +35,6 @@ struct limit_info {
 struct limits limits_default(void);
 // Applies "name=value". On LIMIT_BAD_VALUE *which is the row.
 enum limit_status limits_set(struct limits *limits, str assignment, enum limit *which);
-// The two halves of it.
-bool limit_find(str name, enum limit *which);
 bool limits_set_value(struct limits *limits, enum limit which, str value);
 // Copies from `from` the limits that were set there and not in `limits`.
 void limits_fill(struct limits *limits, const struct limits *from);

@@ -1,5 +1,5 @@
-// XXH64, the 64-bit hash of Yann Collet's xxHash, by the header of his library: fast, well spread, not for secrets.
-// Thread safety: a state belongs to one thread.
+// XXH64, the 64-bit hash of Yann Collet's xxHash, by the header of his library: fast, well spread, not for
+// secrets. Thread safety: a state belongs to one thread.
 #ifndef GLINT_CORE_XXH64_H
 #define GLINT_CORE_XXH64_H
 

@@ -16,7 +16,8 @@ bool diag_is_code_text(str text) {
     char letter = upper(text.ptr[0]);
     bool family = upper(text.ptr[2]) == 'X' && upper(text.ptr[3]) == 'X';
     bool digits = char_is_digit(text.ptr[2]) && char_is_digit(text.ptr[3]);
-    return (letter == 'E' || letter == 'W' || letter == 'N') && char_is_digit(text.ptr[1]) && (family || digits);
+    return (letter == 'E' || letter == 'W' || letter == 'N') && char_is_digit(text.ptr[1]) &&
+           (family || digits);
 }
 
 bool diag_code_matches(enum diag_code code, str text) {

@@ -198,7 +198,9 @@ static uint64_t mix(uint64_t h, str text) {
     return (h ^ str_hash(text)) * UINT64_C(0x9E3779B97F4A7C15) + 1;
 }
 
-uint64_t report_fingerprint(const struct report_finding *finding) {
+// A number for a finding that stays the same when lines before it change: of its code, file, message and
+// line.
+static uint64_t report_fingerprint(const struct report_finding *finding) {
     uint64_t h = mix(0, str_from(diag_info(finding->code)->code));
     h = mix(h, finding->at.path);
     h = mix(h, finding->message);

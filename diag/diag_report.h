@@ -113,10 +113,6 @@ uint32_t report_needed(const struct report_scene *scene);
 // alone shows it.
 str report_path(struct arena *arena, const char *root, str path);
 
-// A number for a finding that stays the same when lines before it change: of its code, file, message and
-// line.
-uint64_t report_fingerprint(const struct report_finding *finding);
-
 // The findings of all scenes in one list, sorted by scene, what several scenes report about one file only
 // once. On the heap: free `items`.
 struct report_item {

@@ -109,7 +109,8 @@ void position_index_finish(struct position_index *index) {
     *index = (struct position_index){0};
 }
 
-void position_of(const struct position_index *index, size_t offset, uint32_t *line, uint32_t *character) {
+static void position_of(const struct position_index *index, size_t offset, uint32_t *line,
+                        uint32_t *character) {
     size_t low = 0;
     size_t high = index->count; // marks before `low` are not after the offset, those from `high` on are
     while (low < high) {

@@ -38,7 +38,6 @@ void position_index_use(struct position_index *index, str text, enum position_en
 void position_index_forget(struct position_index *index);
 void position_index_finish(struct position_index *index);
 
-void position_of(const struct position_index *index, size_t offset, uint32_t *line, uint32_t *character);
 // The beginning of a line that was found in the text; valid as long as no byte before it changes. Zeroed: of
 // the first line.
 struct position_hint {

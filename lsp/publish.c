@@ -22,7 +22,8 @@ static bool has_file(const struct session *session, span at) {
     return kind == SOURCE_KIND_FILE || kind == SOURCE_KIND_OVERLAY;
 }
 
-str server_text(const struct session *session, uint32_t source) {
+// The text that positions in a source refer to.
+static str server_text(const struct session *session, uint32_t source) {
     return session->sources.items[source].text;
 }
 
@@ -193,7 +194,8 @@ static void collect_guarded(struct server *server, struct lsp_scene *scene, json
     arena_finish(&collecting.arena);
 }
 
-void server_publish(struct server *server) {
+// Diagnostics of all scenes, to the client if they have changed (lsp/publish.c).
+static void server_publish(struct server *server) {
     json_t *all = json_object();
     json_t *seen = json_object();
     for (uint32_t i = 0; i < server->scenes.count; i++)

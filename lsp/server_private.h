@@ -43,14 +43,10 @@ struct request {
 
 // The Location of a span; NULL if it has no file.
 json_t *server_location(struct server *server, struct session *session, struct arena *arena, span at);
-// The text that positions in a source refer to.
-str server_text(const struct session *session, uint32_t source);
 json_t *server_range(struct server *server, const struct session *session, span at);
 // Must be called whenever scenes may have been loaded again.
 void server_forget(struct server *server);
 
-// Diagnostics of all scenes, to the client if they have changed (lsp/publish.c).
-void server_publish(struct server *server);
 // Loads what has changed, and tells what is new in it.
 void server_refresh(struct server *server, enum scenes_effort effort);
 json_t *server_diagnostic(struct server *server, struct session *session, struct arena *arena,

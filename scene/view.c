@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-
 // ---- the camera
 
 // Right and up for a direction of view. An up along the view was refused where it was written; the default

@@ -17,7 +17,7 @@ static struct steer_pose pose_of(const struct view_camera *camera) {
     return (struct steer_pose){camera->position, camera->right, camera->up, camera->forward};
 }
 
-void viewer_aim(struct viewer *v) {
+static void viewer_aim(struct viewer *v) {
     v->eye.position = v->steer.pose.position;
     v->eye.right = v->steer.pose.right;
     v->eye.up = v->steer.pose.up;

@@ -120,6 +120,5 @@ bool viewer_is_disturbed(struct viewer *v);
 bool viewer_has_changed(struct viewer *v);
 // The eye goes where the camera is in the scene.
 void viewer_go_back(struct viewer *v);
-void viewer_aim(struct viewer *v);
 
 #endif

@@ -31,7 +31,6 @@ enum {
     F(DestroyWindow)                                                                                         \
     F(ShowWindow)                                                                                            \
     F(SetWindowSize)                                                                                         \
-    F(SetWindowTitle)                                                                                        \
     F(SetWindowSizeLimits)                                                                                   \
     F(SetWindowUserPointer)                                                                                  \
     F(GetWindowUserPointer)                                                                                  \
@@ -315,10 +314,6 @@ uint32_t window_text_scale(struct window *window) {
     return width < ROOMY_WIDTH * scale ? scale : 2 * scale;
 }
 
-void window_set_title(struct window *window, const char *title) {
-    window->glfw.SetWindowTitle(window->handle, title);
-}
-
 #else
 
 struct window *window_open(const char *title, uint32_t width, uint32_t height,
@@ -356,8 +351,5 @@ void window_wait(struct window *window, double seconds) {
 bool window_next(struct window *window, struct steer_event *event) {
     (void)window, (void)event;
     return false;
-}
-void window_set_title(struct window *window, const char *title) {
-    (void)window, (void)title;
 }
 #endif

@@ -36,6 +36,5 @@ uint32_t window_text_scale(struct window *window);
 void window_wait(struct window *window, double seconds);
 // The next event that came; false: there is none.
 bool window_next(struct window *window, struct steer_event *event);
-void window_set_title(struct window *window, const char *title);
 
 #endif

@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-
-
 // Degrees: the view is turned and lowered by these, and so narrow that the floor, which it looks down on at
 // least by ELEVATION - FOV / 2, is all that is behind the mesh.
 #define AZIMUTH   20.0

@@ -238,7 +238,9 @@ static double reach_of(const struct gltf *gltf, vec3 *middle) {
     return vec3_length(vec3_sub(upper, lower)) / 2;
 }
 
-double import_dimming(struct gltf_document *document) {
+// By what lights are divided besides: 683 where the strongest would make white surfaces more than 30 times
+// too bright, as in files that state watts as lumens (Blender's standard units), else 1.
+static double import_dimming(struct gltf_document *document) {
     const struct gltf *gltf = &document->gltf;
     vec3 middle;
     const double reach = reach_of(gltf, &middle);

@@ -39,8 +39,5 @@ void import_gltf(struct gltf_document *document, const struct import_options *op
 bool *import_images(struct gltf_document *document, struct arena *arena);
 // Tells what was lost, and how strong lights were taken to be.
 void import_report(struct gltf_document *document);
-// By what lights are divided besides: 683 where the strongest would make white surfaces more than 30 times
-// too bright, as in files that state watts as lumens (Blender's standard units), else 1.
-double import_dimming(struct gltf_document *document);
 
 #endif

@@ -86,7 +86,8 @@ static bool begins_as_yaml(str text) {
     return is_key && text.len && text.ptr[0] == ':';
 }
 
-bool scene_text_fits(str text) {
+// Whether a text begins as a scene does: with 'glint:', or with <Scene glint=, after what may be before that.
+static bool scene_text_fits(str text) {
     text = skip_space(str_slice(text, str_skip_mark(text), text.len));
     return str_starts_with(text, STR("<")) ? begins_as_xml(text) : begins_as_yaml(text);
 }

@@ -17,8 +17,6 @@
 extern const char *const scene_name_endings[]; // NULL at the end
 // Whether a file of this name is a scene wherever it is found.
 bool scene_name_fits(str path);
-// Whether a text begins as a scene does: with 'glint:', or with <Scene glint=, after what may be before that.
-bool scene_text_fits(str text);
 
 struct scene_other {
     str path;

@@ -79,7 +79,9 @@ void gltf_documents_finish(struct gltf_document *first) {
 
 // ---- files beside it
 
-uint32_t gltf_document_line(const struct gltf_document *document, json_index at) {
+// The line of a value, for messages about what it says; 0 in a GLB file, whose JSON has no lines that people
+// see.
+static uint32_t gltf_document_line(const struct gltf_document *document, json_index at) {
     const str text = document->gltf.json.text;
     const size_t offset = json_at(&document->gltf.json, at)->begin;
     uint32_t line = 1;

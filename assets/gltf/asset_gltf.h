@@ -40,10 +40,6 @@ bool gltf_document_buffers(struct gltf_document *document);
 void gltf_document_guarded(struct gltf_document *document, struct arena *const *others, arena_work *work,
                            void *context);
 
-// The line of a value, for messages about what it says; 0 in a GLB file, whose JSON has no lines that people
-// see.
-uint32_t gltf_document_line(const struct gltf_document *document, json_index at);
-
 // The bytes of an image that the file holds, or that is beside it. `file` takes its path and identity.
 bool gltf_document_image(struct gltf_document *document, uint32_t image, struct asset_file *file,
                          struct file_read *identity);

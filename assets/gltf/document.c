@@ -41,7 +41,7 @@ static void read_names(struct gltf *gltf, const char *key, bool is_required) {
     }
 }
 
-void gltf_read_extensions(struct gltf *gltf) {
+static void gltf_read_extensions(struct gltf *gltf) {
     read_names(gltf, "extensionsRequired", true);
     if (gltf->errors == 0)
         read_names(gltf, "extensionsUsed", false);

@@ -10,7 +10,6 @@
 bool gltf_take_chunks(struct gltf *gltf, str bytes, str *text);
 
 // Each fills its lists from the root of the JSON, in this order; what is wrong is told.
-void gltf_read_extensions(struct gltf *gltf);
 void gltf_read_buffers(struct gltf *gltf); // buffers, views, accessors
 void gltf_read_images(struct gltf *gltf);  // images, samplers, textures
 void gltf_read_materials(struct gltf *gltf);

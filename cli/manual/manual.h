@@ -35,8 +35,4 @@ void manual_bash(const struct manual *manual, struct strbuf *out);
 void manual_zsh(const struct manual *manual, struct strbuf *out);
 void manual_fish(const struct manual *manual, struct strbuf *out);
 
-// The words that "a|b" offers: the next one at *at, empty at the end or where `text` does not begin with such
-// words. A word has lower-case letters, digits and signs.
-str manual_next_word(const char *text, size_t *at);
-
 #endif

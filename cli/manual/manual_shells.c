@@ -9,7 +9,9 @@ static bool is_word_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
 }
 
-str manual_next_word(const char *text, size_t *at) {
+// The words that "a|b" offers: the next one at *at, empty at the end or where `text` does not begin with such
+// words. A word has lower-case letters, digits and signs.
+static str manual_next_word(const char *text, size_t *at) {
     const size_t length = strcspn(text, " ");
     const str all = {text, length};
     size_t end = *at;

@@ -6,7 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-str provenance_device(struct arena *arena, const struct gpu *gpu) {
+// The device as files name it.
+static str provenance_device(struct arena *arena, const struct gpu *gpu) {
     if (!gpu)
         return STR("reference");
     const struct gpu_device_info *info = gpu_info(gpu);

@@ -26,7 +26,5 @@ struct image_texts provenance_texts(struct cli *cli, const struct provenance *ma
 void provenance_line(struct cli *cli, const struct provenance *made, char *line, size_t size);
 struct image_texts provenance_of_line(struct cli *cli, const char *line, enum image_format format,
                                       struct image_coding coding);
-// The device as files name it.
-str provenance_device(struct arena *arena, const struct gpu *gpu);
 
 #endif

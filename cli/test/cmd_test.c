@@ -83,7 +83,7 @@ static int report(struct test_run *run) {
     return status == CLI_OK ? junit : status;
 }
 
-void test_finish(struct test_run *run) {
+static void test_finish(struct test_run *run) {
     for (uint32_t i = 0; i < run->cases.count; i++)
         for (int k = 0; k < TEST_SHOWN_COUNT; k++)
             strbuf_finish(&run->cases.items[i].shown[k]);

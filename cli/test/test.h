@@ -76,8 +76,6 @@ struct test_run {
 
 // test_plan.c: an exit code.
 int test_plan(struct test_run *run);
-// The folder of the reference pictures, if the file names it; empty: there is none.
-str test_pictures_folder(struct test_run *run);
 
 // test_render.c: makes the pictures one after another; `judge` is told of each as a file in memory, which is
 // gone afterwards, or of none where a case failed. An exit code.
@@ -87,8 +85,6 @@ struct test_made {
 };
 typedef int (*test_judge_fn)(struct test_run *run, struct test_case *test, const struct test_made *made);
 int test_render(struct test_run *run, test_judge_fn judge);
-// How the reference says that it is coded: what a new one is coded as, too.
-struct image_coding test_coding(struct test_run *run, const struct test_case *test);
 
 // test_judge.c: fills in what became of a case. false: no memory.
 bool test_judge(struct test_run *run, struct test_case *test, const struct test_made *made);
@@ -111,7 +107,5 @@ void test_sums(const struct test_run *run, struct strbuf *out);
 void test_json(const struct test_run *run, struct strbuf *out);
 void test_junit(const struct test_run *run, struct strbuf *out);
 void test_html(const struct test_run *run, struct strbuf *out);
-
-void test_finish(struct test_run *run);
 
 #endif

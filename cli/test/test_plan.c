@@ -64,7 +64,8 @@ static str file_folder(const struct test_run *run) {
     return run->file_path.len ? path_folder(run->file_path) : run->folder;
 }
 
-str test_pictures_folder(struct test_run *run) {
+// The folder of the reference pictures, if the file names it; empty: there is none.
+static str test_pictures_folder(struct test_run *run) {
     str folder = run->file.pictures;
     while (folder.len > 1 && folder.ptr[folder.len - 1] == '/')
         folder.len--;

@@ -242,7 +242,8 @@ static int trace_exactly(struct tester *t, struct test_case *test, struct sessio
     return ended(t, test, session, status, errors);
 }
 
-struct image_coding test_coding(struct test_run *run, const struct test_case *test) {
+// How the reference says that it is coded: what a new one is coded as, too.
+static struct image_coding test_coding(struct test_run *run, const struct test_case *test) {
     struct image_coding coding = {0};
     struct record_read record;
     struct record_command command;

@@ -34,13 +34,6 @@ struct verify {
     int status;
 };
 
-// Of a field of the record: whether the file says what is so now.
-bool verify_same(const struct verify *v, enum record_field field);
-// Another version or device: pixels may differ within the bound.
-bool verify_elsewhere(const struct verify *v);
-bool verify_pixels_hold(const struct verify *v);
-bool verify_note_same(const struct verify *v);
-bool verify_bytes_same(const struct verify *v);
 // All of it: what the exit status says.
 bool verify_holds(const struct verify *v);
 

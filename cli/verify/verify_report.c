@@ -7,7 +7,7 @@
 
 // ---- what holds
 
-bool verify_same(const struct verify *v, enum record_field field) {
+static bool verify_same(const struct verify *v, enum record_field field) {
     // Where the scene lies is not how the picture is made; the rest of the command is in the other fields.
     const bool moved = v->cli->operand_count > 1 || cli_option_place(v->cli, "asset-path");
     if (field == RECORD_COMMAND && moved)
@@ -15,7 +15,8 @@ bool verify_same(const struct verify *v, enum record_field field) {
     return str_equal(v->was.fields[field], v->is.fields[field]);
 }
 
-bool verify_elsewhere(const struct verify *v) {
+// Another version or device: pixels may differ within the bound.
+static bool verify_elsewhere(const struct verify *v) {
     return !verify_same(v, RECORD_SOFTWARE) || !verify_same(v, RECORD_DEVICE);
 }
 
@@ -23,18 +24,18 @@ static bool is_same_size(const struct verify *v) {
     return v->pictures[0].width == v->pictures[1].width && v->pictures[0].height == v->pictures[1].height;
 }
 
-bool verify_pixels_hold(const struct verify *v) {
+static bool verify_pixels_hold(const struct verify *v) {
     const struct verify_pixels *p = &v->pixels;
     if (!is_same_size(v))
         return false;
     return p->differ == 0 || (verify_elsewhere(v) && p->share <= VERIFY_SHARE && p->mean <= VERIFY_MEAN);
 }
 
-bool verify_note_same(const struct verify *v) {
+static bool verify_note_same(const struct verify *v) {
     return verify_elsewhere(v) || str_equal(v->was.note, v->is.note);
 }
 
-bool verify_bytes_same(const struct verify *v) {
+static bool verify_bytes_same(const struct verify *v) {
     return str_equal(v->bytes, strbuf_view(&v->made));
 }
 

@@ -190,8 +190,6 @@ struct bind_frame bind_aside(struct bind_context *context, const struct bind_fra
 // bind_missing.c
 // Reports required rows and choices that are not there; `silent`: only marks them.
 void bind_missing(struct bind_context *context, struct bind_frame *frame, bool silent);
-void bind_report_missing(struct bind_context *context, struct bind_frame *frame,
-                         const struct schema_row *row);
 
 // bind_fixed.c
 // The value after values->at; 0: it was the last.
@@ -260,7 +258,6 @@ void bind_help_example(struct bind_context *context, struct bind_subject subject
 void bind_help_shape(struct bind_context *context, struct bind_subject subject, tree_index node);
 // The same, but nothing if they are not told apart. For a list its text is used. false: nothing was added.
 bool bind_help_numbers(struct bind_context *context, struct bind_subject subject, tree_index node);
-bool bind_no_value(struct bind_context *context, struct bind_subject subject, tree_index node);
 
 // bind_values.c: text of SCHEMA_TEXT_VALUES. false: reported or known.
 bool bind_values(struct bind_context *context, struct bind_subject subject, tree_index node, str *out);

@@ -36,8 +36,8 @@ static void fix_version(struct bind_context *context, const struct schema_row *r
     diag_fix(context->sink, true, (span){tree->source, begin, begin}, text);
 }
 
-void bind_report_missing(struct bind_context *context, struct bind_frame *frame,
-                         const struct schema_row *row) {
+static void bind_report_missing(struct bind_context *context, struct bind_frame *frame,
+                                const struct schema_row *row) {
     str owner = say_subject(context->scratch, bind_subject(frame, NULL));
     diag_add(context->sink, DIAG_MISSING, frame->label, "%.*s lacks '%s'", STR_ARG(owner),
              row->many == SCHEMA_ONE ? row->name : schema_yaml_key(row));

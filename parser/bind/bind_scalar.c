@@ -13,7 +13,7 @@
 #include <stdio.h>
 #include <string.h>
 
-bool bind_no_value(struct bind_context *context, struct bind_subject subject, tree_index node) {
+static bool bind_no_value(struct bind_context *context, struct bind_subject subject, tree_index node) {
     if (bind_is_known(context, node))
         return false;
     str s = say_subject(context->scratch, subject);

@@ -69,7 +69,8 @@ static str path_of_frame(struct arena *arena, const struct bind_frame *frame) {
     return arena_format(arena, "%.*s%s%s", STR_ARG(above), above.len ? "." : "", frame->via->name);
 }
 
-str say_path(struct arena *arena, struct bind_subject subject) {
+// "'radius'": the path from the nearest entry of a list, without its owner; may be empty.
+static str say_path(struct arena *arena, struct bind_subject subject) {
     str path = path_of_frame(arena, subject.frame);
     if (subject.row && !(subject.frame->bare && subject.row->short_form && path.len)) {
         const char *name = subject.row->many == SCHEMA_ONE ? subject.row->name : schema_yaml_key(subject.row);

@@ -12,8 +12,6 @@
 str say_owner(struct arena *arena, const struct bind_frame *frame);
 // "'radius' of this sphere", "'image.width'"; the element itself if the subject has no row.
 str say_subject(struct arena *arena, struct bind_subject subject);
-// "'radius'": the path from the nearest entry of a list, without its owner; may be empty.
-str say_path(struct arena *arena, struct bind_subject subject);
 // "a sphere", "the scene", "'diffuse_color'": a kind of element, for messages about what it may hold.
 str say_kind(struct arena *arena, const struct bind_frame *frame);
 str say_article(struct arena *arena, const char *word);

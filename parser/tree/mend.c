@@ -175,7 +175,8 @@ str mend_boolean(str text) {
 }
 
 str mend_name(struct arena *arena, str text) {
-    str copy = arena_format(arena, "%s%.*s", text.len && char_is_digit(text.ptr[0]) ? "_" : "", STR_ARG(text));
+    str copy =
+        arena_format(arena, "%s%.*s", text.len && char_is_digit(text.ptr[0]) ? "_" : "", STR_ARG(text));
     char *c = (char *)copy.ptr;
     for (size_t i = 0; i < copy.len; i++)
         if ((unsigned char)c[i] < 0x80 && !char_is_digit(c[i]) && !is_lower(c[i]) && !is_upper(c[i]) &&

@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-uint32_t noise_hash(int32_t x, int32_t y, uint32_t seed) {
+// A well mixed 32-bit hash of a lattice point.
+static uint32_t noise_hash(int32_t x, int32_t y, uint32_t seed) {
     uint32_t h = seed * 0x9e3779b9u + (uint32_t)x * 0x85ebca6bu + (uint32_t)y * 0xc2b2ae35u;
     h ^= h >> 15;
     h *= 0x7feb352du;
@@ -32,7 +33,8 @@ static int32_t floor_to_int(double x) {
     return i - (x < i);
 }
 
-double noise_gradient(double x, double y, uint32_t seed) {
+// Perlin's gradient noise (Improving Noise, 2002), about -0.7 to 0.7.
+static double noise_gradient(double x, double y, uint32_t seed) {
     int32_t i = floor_to_int(x), j = floor_to_int(y);
     double dx = x - i, dy = y - j, u = fade(dx), v = fade(dy);
     double a = slope(noise_hash(i, j, seed), dx, dy), b = slope(noise_hash(i + 1, j, seed), dx - 1, dy);

@@ -11,7 +11,8 @@ struct ring_corners {
     bool is_point;
 };
 
-void solids_orient(struct mesh *mesh, int first_face) {
+// Turns the faces from `first_face` on outward, by their signed volume.
+static void solids_orient(struct mesh *mesh, int first_face) {
     double volume = 0;
     if (mesh->failed || first_face >= mesh->face_count)
         return;

@@ -19,9 +19,6 @@ struct solids_ring {
 void solids_loft(struct mesh *mesh, const struct solids_ring *rings, int ring_count, int sides,
                  double angle_deg);
 
-// Turns the faces from `first_face` on outward, by their signed volume.
-void solids_orient(struct mesh *mesh, int first_face);
-
 // An octahedron with half axes x, y, z.
 void solids_octahedron(struct mesh *mesh, vec3 centre, vec3 half_axes);
 

@@ -164,8 +164,9 @@ static void plan(struct renderer *renderer) {
         plan_at_once(renderer);
 }
 
-bool renderer_upload(struct renderer *renderer, uint32_t binding, enum gpu_use use, const void *data,
-                     uint64_t bytes) {
+// Makes the buffer of a binding and fills it, unless `data` is NULL. false: see gpu_error.
+static bool renderer_upload(struct renderer *renderer, uint32_t binding, enum gpu_use use, const void *data,
+                            uint64_t bytes) {
     struct gpu_buffer *buffer = gpu_buffer_create(renderer->gpu, use, bytes);
     renderer->buffers[binding] = buffer;
     return buffer && (!data || gpu_write(renderer->gpu, buffer, 0, data, bytes));

@@ -126,9 +126,6 @@ struct renderer_array {
 uint32_t renderer_arrays(const struct flat_scene *flat, struct renderer_array out[RENDERER_ARRAYS]);
 // Makes its buffer and fills it: behind the paints with the texels of the renderer's flat scene.
 bool renderer_upload_array(struct renderer *renderer, const struct renderer_array *array);
-// Makes the buffer of a binding and fills it, unless `data` is NULL. false: see gpu_error.
-bool renderer_upload(struct renderer *renderer, uint32_t binding, enum gpu_use use, const void *data,
-                     uint64_t bytes);
 bool renderer_make_background(struct renderer *renderer);
 // Destroys all kernels, and what depends on the settings: renderer_change must follow.
 void renderer_forget_kernels(struct renderer *renderer);
@@ -258,10 +255,6 @@ void renderer_log_destroy(struct renderer *renderer);  // what renderer_log made
 // Adds a fault, whose word is as in shaders/frame.h, to those of its kind.
 void renderer_note_fault(const struct renderer *renderer, uint32_t word, uint32_t pixels, uint32_t x,
                          uint32_t y, struct render_fault *fault);
-// Which pixel a slot of the band at `tile_begin` shows; false: none of the picture. Of a band that the
-// tracing kernel has filled, and of others.
-bool renderer_traced_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
-                           uint32_t *y);
 bool renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
                     uint32_t *y);
 

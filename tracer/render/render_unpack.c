@@ -29,8 +29,10 @@ bool renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32
                          x, y);
 }
 
-bool renderer_traced_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot, uint32_t *x,
-                           uint32_t *y) {
+// Which pixel a slot of the band at `tile_begin` shows; false: none of the picture. Of a band that the
+// tracing kernel has filled, and of others.
+static bool renderer_traced_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot,
+                                  uint32_t *x, uint32_t *y) {
     if (!renderer->order)
         return renderer_pixel(renderer, tile_begin, slot, x, y);
     const uint32_t place = renderer->order[tile_begin + slot / TILE_PIXELS];

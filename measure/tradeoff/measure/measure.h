@@ -170,8 +170,6 @@ bool ground_truth_affords(const struct measuring *s, double rays);
 
 // Fills value, not_finite and the thumbnails from the row's picture.
 enum tradeoff_status errors_measure(struct measuring *s, struct row *row);
-// Fills value and the thumbnails from s->shown. false: no memory.
-bool errors_of_shown(struct measuring *s, struct row *row);
 
 // ---- measure_parts.c
 

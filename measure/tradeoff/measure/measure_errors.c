@@ -67,7 +67,7 @@ static void difference_thumbnail(const float *difference, uint32_t width, uint32
 
 // ---- a row
 
-bool errors_of_shown(struct measuring *s, struct row *row) {
+static bool errors_of_shown(struct measuring *s, struct row *row) {
     const uint32_t width = s->base.width, height = s->base.height;
     struct measure_options options = measure_options_default();
     struct measure_result result;
