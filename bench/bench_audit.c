@@ -3,7 +3,7 @@
 //     bench_audit [--random N] [--seed S] [--size WxH] [--rounds N] [--assets DIR] [--device NAME|N]
 //     [SCENE]...
 //
-// First N scenes of `glint extremes --random N --seed S` (default 442 of seed 1), each traced in single
+// First N scenes of `test_choices --count N --seed S` (default 442 of seed 1), each traced in single
 // precision at WxH pixels (default 256x192): how many of those with more than 0.1 % of their pixels off are
 // told of, how many of the others raise a false alarm, how many of these have no pixel off at all, and of how
 // many what is said of the share is not true. Then each SCENE at 1024x1024 pixels: frames and
@@ -14,9 +14,9 @@
 #include "core/number.h"
 #include "files/files.h"
 #include "grammar/ir.h"
-#include "measure/sweep/sweep.h"
 #include "reference/reference.h"
 #include "shaders/features.h"
+#include "tests/sweep/sweep.h"
 
 #include <getopt.h>
 #include <math.h>

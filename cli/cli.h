@@ -290,7 +290,6 @@ int cmd_verify(struct cli *cli);
 int cmd_test(struct cli *cli);
 int cmd_pick(struct cli *cli);
 int cmd_extremes(struct cli *cli);
-int cmd_extremes_random(struct cli *cli); // where --random was given
 int cmd_deps(struct cli *cli);
 int cmd_pack(struct cli *cli);
 int cmd_lsp(struct cli *cli);

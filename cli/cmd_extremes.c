@@ -193,13 +193,6 @@ int cmd_extremes(struct cli *cli) {
     static const char *const kinds[] = {[KIND_TEXT] = "text", [KIND_JSON] = "json", NULL};
     struct job job = {.cli = cli};
     int kind;
-    const struct cli_sweep *sweep = &cli->options.measure.sweep;
-    if (sweep->count)
-        return cmd_extremes_random(cli);
-    if (sweep->arg)
-        return cli_usage(cli, sweep->arg, "this is about random scenes: say how many with '--random N'");
-    if (cli->operand_count == 0)
-        return cli_usage(cli, 1, "'glint extremes' needs SCENE or '--random N'");
     if (!cli_format(cli, kinds, &kind) || !read_axes(cli, &job.axes) ||
         !read_alternative(cli, &job.alternative))
         return CLI_USAGE;

@@ -163,18 +163,15 @@ static const struct cli_command commands[] = {
      "  sh farm/job.sh\n"
      "  glint farm status farm\n",
      2, 2, cmd_farm},
-    {"extremes", "[SCENE]", "push a scene to its extremes, and show what breaks",
+    {"extremes", "SCENE", "push a scene to its extremes, and show what breaks",
      "Moves and scales the scene, moves the camera far away, changes refractive indices and specular\n"
      "exponents, adds slivers, coplanar rectangles and narrow gaps, and puts light and camera onto\n"
      "surfaces. Each variant is traced by the device and by the double-precision reference, which shows\n"
      "wrong hits, self-hits, leaks, holes, escapes out of closed bodies, values that are not a number, and\n"
      "image error. --format is text or json; -o writes a report with the matrix. The exit status is 1 if a\n"
      "bound is broken (docs/accuracy.md; --thresholds uses other bounds).\n\n"
-     "With --random N it makes N scenes of families that are hard to trace instead, and says for how many\n"
-     "of them precision 'auto' chose wrongly; --keep writes those into a folder.\n\n"
-     "  glint extremes scenes/showcase.glint.yaml -o report.html\n"
-     "  glint extremes --random 2000 --seed 1 --keep wrong -o report.html\n",
-     0, 1, cmd_extremes},
+     "  glint extremes scenes/showcase.glint.yaml -o report.html\n",
+     1, 1, cmd_extremes},
     {"pick", "SCENE X,Y", "show what is seen at a pixel, and why",
      "Body, material, the lines of scene and mesh, distance and normal, then the path of the ray: each\n"
      "ray's weight, what it hits, which lights shine there, what it adds; as the device traces it and as\n"

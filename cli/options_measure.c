@@ -71,58 +71,10 @@ static bool read_choice(struct cli *cli, int arg, enum cli_measure_option option
     return true;
 }
 
-static bool read_whole(struct cli *cli, int arg, const char *name, const char *text, int64_t least,
-                       int64_t most, uint64_t *out) {
-    int64_t value = 0;
-    if (number_parse_integer(str_from(text), &value) != NUMBER_OK || value < least || value > most) {
-        cli_usage(cli, arg, "--%s takes a whole number from %lld to %lld, not '%s'", name, (long long)least,
-                  (long long)most, text);
-        return false;
-    }
-    *out = (uint64_t)value;
-    return true;
-}
-
-enum {
-    RANDOM_MAX = 1000000, // scenes
-};
-
-static bool read_sweep(struct cli *cli, int arg, enum cli_measure_option option, const char *name,
-                       const char *value) {
-    struct cli_sweep *s = &cli->options.measure.sweep;
-    uint64_t number = 0;
-    s->arg = arg;
-    switch (option) {
-    case CLI_MEASURE_RANDOM:
-        if (!read_whole(cli, arg, name, value, 1, RANDOM_MAX, &number))
-            return false;
-        s->count = (uint32_t)number;
-        return true;
-    case CLI_MEASURE_SEED:
-        return read_whole(cli, arg, name, value, 0, INT64_MAX, &s->seed);
-    case CLI_MEASURE_FAMILY:
-        s->families = value;
-        s->families_arg = arg;
-        return true;
-    case CLI_MEASURE_KEEP:
-        s->keep = value;
-        return true;
-    case CLI_MEASURE_MAX_WRONG:
-        if (!read_whole(cli, arg, name, value, 0, RANDOM_MAX, &number))
-            return false;
-        s->max_wrong = (uint32_t)number;
-        return true;
-    default:
-        return s->has_max_needless = read_number(cli, arg, name, value, 0, 1, &s->max_needless);
-    }
-}
-
 bool cli_measure_apply(struct cli *cli, int arg, enum cli_measure_option option, const char *name,
                        const char *value) {
     struct cli_measure *m = &cli->options.measure;
     double number = 0;
-    if (option >= CLI_MEASURE_RANDOM)
-        return read_sweep(cli, arg, option, name, value);
     if (option < CLI_MEASURE_NOT_FINITE)
         return read_bound(cli, arg, (enum metric)(option - CLI_MEASURE_BOUND), name, value);
     switch (option) {

@@ -1,5 +1,4 @@
-// The options of compare and tradeoff, those of render that choose settings by them, and those of extremes'
-// random scenes.
+// The options of compare and tradeoff, and those of render that choose settings by them.
 //
 // Thread safety: as cli.h.
 #ifndef GLINT_CLI_OPTIONS_MEASURE_H
@@ -23,31 +22,12 @@ enum cli_measure_option {
     CLI_MEASURE_TIME,
     CLI_MEASURE_NOISE,
     CLI_MEASURE_MAX_OFF,
-    CLI_MEASURE_RANDOM,
-    CLI_MEASURE_SEED,
-    CLI_MEASURE_FAMILY,
-    CLI_MEASURE_KEEP,
-    CLI_MEASURE_MAX_WRONG,
-    CLI_MEASURE_MAX_NEEDLESS,
 };
 
 enum cli_space {
     CLI_SPACE_AUTO,
     CLI_SPACE_DISPLAYED,
     CLI_SPACE_LINEAR,
-};
-
-// Of extremes: random scenes in place of a scene's variants.
-struct cli_sweep {
-    uint32_t count; // 0: not wanted
-    uint64_t seed;
-    const char *families; // NULL: all
-    int families_arg;
-    const char *keep; // folder; NULL: none
-    uint32_t max_wrong;
-    bool has_max_needless;
-    double max_needless;
-    int arg; // the place of the last of them on the command line; 0: none was given
 };
 
 struct cli_measure {
@@ -73,7 +53,6 @@ struct cli_measure {
     int time_arg;
     double noise; // standard error at which pixels end; 0: not given
     int noise_arg;
-    struct cli_sweep sweep;
 };
 
 struct cli;

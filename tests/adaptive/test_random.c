@@ -11,7 +11,7 @@
 #include "core/number.h"
 #include "files/files.h"
 #include "grammar/ir.h"
-#include "measure/sweep/sweep.h"
+#include "tests/sweep/sweep.h"
 #include "scene/view.h"
 #include "tests/pictures/picture_kit.h"
 

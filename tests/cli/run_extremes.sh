@@ -119,29 +119,6 @@ END
     exit $failed
 fi
 
-# Random scenes.
-expect "a seed without random scenes" 2 - "say how many with '--random N'" "$glint" extremes scene.yaml --seed 3
-expect "neither a scene nor random ones" 2 - "needs SCENE or '--random N'" "$glint" extremes
-expect "random scenes beside one" 2 - 'name none' "$glint" extremes scene.yaml --random 3
-expect "no random scenes" 2 - 'from 1 to 1000000' "$glint" extremes --random 0
-expect "an unknown family" 2 - "did you mean 'corridor'" "$glint" extremes --random 3 --family corridr
-expect "no family" 2 - 'names no family' "$glint" extremes --random 3 --family ''
-expect "random scenes have no axes" 2 - 'no axes' "$glint" extremes --random 3 --axis move
-expect "random scenes by the reference" 2 - 'choose a device' "$glint" extremes --random 3 --device reference
-expect "a report of random scenes of another kind" 2 - 'must end in \.html' "$glint" extremes --random 3 -o report.txt
-random() { "$glint" extremes --random 6 --family still,huge,deep --size 16x12 -q --max-wrong 6 --max-needless 1 "$@"; }
-expect "random scenes" 0 '^6 scenes, ' - random -v --keep kept -o random.html
-also "each of them" '^  deep-1 +(right|wrong|needless|beyond) ' -
-expect "their squares" 0 '<svg ' '' cat random.html
-ok "a square for each scene" test "$(grep -c '<title>[a-z]*-[01]: ' random.html)" -eq 6
-ok "a file for each scene" test "$(ls kept/*.glint.yaml | wc -l)" -eq 6
-expect "which can be checked" 0 '' '' "$glint" check -q kept
-expect "the same scenes again" 0 '"count": 6,' - random -v --keep again --format json
-expect "to the byte" 0 - - diff -r kept again
-expect "other scenes of another seed" 0 '' - random -v --keep other --seed 1
-expect "which differ" 1 - - cmp -s kept/still-0.glint.yaml other/still-0.glint.yaml
-expect "a folder that cannot be made" 3 - 'nowhere/kept' random -v --keep nowhere/kept
-
 expect "an unknown axis" 2 - "did you mean 'scale'" "$glint" extremes scene.yaml --axis scal
 expect "an unknown kind" 2 - 'csv' "$glint" extremes scene.yaml --format csv
 expect "no axis" 2 - 'names no axis' "$glint" extremes scene.yaml --axis ''

@@ -27,6 +27,5 @@ ok "a search for settings" sh -c '"$0" render glass.yaml --max-error flip=0.9 --
     grep -q "settings tried on" err.txt' "$glint"
 expect "a picture in time, audited" 0 - 'traced again' "$glint" render glass.yaml --time 1000 --audit -o timed.png
 expect "an end of its numbers" 0 ' 0 broken' '' "$glint" extremes glass.yaml --size 8x6 -q --axis gap -o report.html
-expect "random scenes" 0 '^2 scenes, ' '' "$glint" extremes --random 2 --family still --size 8x6 -q --keep kept -o random.html
 expect "two paths" 0 "sphere 'ball'" - "$glint" pick glass.yaml 6,6 --sample 1
 exit $failed

@@ -3,7 +3,7 @@
 #include "core/limits.h"
 #include "device_kit.h"
 #include "grammar/ir.h"
-#include "measure/sweep/sweep.h"
+#include "tests/sweep/sweep.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -4,12 +4,12 @@
 // The caller reads each scene from its text (a room above this one does) and hands it to sweep_judge.
 // Ownership: sweep_finish frees the items. Errors: a status; device errors are in gpu_error. Thread safety:
 // the gpu's thread.
-#ifndef GLINT_MEASURE_SWEEP_SWEEP_H
-#define GLINT_MEASURE_SWEEP_SWEEP_H
+#ifndef GLINT_TESTS_SWEEP_SWEEP_H
+#define GLINT_TESTS_SWEEP_SWEEP_H
 
 #include "core/limits.h"
 #include "core/strbuf.h"
-#include "measure/sweep/sweep_scene.h"
+#include "tests/sweep/sweep_scene.h"
 #include "tracer/gpu/gpu.h"
 
 struct scene;
@@ -103,8 +103,5 @@ struct sweep_report {
 bool sweep_is_noted(const struct sweep_item *item);
 bool sweep_is_broken(const struct sweep_report *report);
 void sweep_text(const struct sweep_report *report, struct strbuf *out);
-void sweep_json(const struct sweep_report *report, struct strbuf *out);
-// One file, without scripts: a family a row, a scene a square.
-void sweep_html(const struct sweep_report *report, struct strbuf *out);
 
 #endif

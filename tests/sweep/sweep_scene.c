@@ -1,12 +1,12 @@
-#include "measure/sweep/sweep_scene.h"
+#include "tests/sweep/sweep_scene.h"
 
-#include "measure/sweep/sweep_parts.h"
+#include "tests/sweep/sweep_parts.h"
 
 #include <stdio.h>
 
 static sweep_maker *const makers[SWEEP_FAMILIES] = {
 #define X(NAME, name, title) sweep_make_##name,
-#include "measure/sweep/families.def"
+#include "tests/sweep/families.def"
 #undef X
 };
 

@@ -1,12 +1,12 @@
 // What families are made of, as numbers and as text.
 #include "core/splitmix.h"
-#include "measure/sweep/sweep_parts.h"
+#include "tests/sweep/sweep_parts.h"
 
 #include <stdio.h>
 
 const struct sweep_family_info sweep_families[SWEEP_FAMILIES] = {
 #define X(NAME, name, title) {#name, title},
-#include "measure/sweep/families.def"
+#include "tests/sweep/families.def"
 #undef X
 };
 

@@ -1,6 +1,5 @@
-// A sweep as text and as JSON.
-#include "core/json_write.h"
-#include "measure/sweep/sweep.h"
+// A sweep as text.
+#include "tests/sweep/sweep.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -66,53 +65,4 @@ void sweep_text(const struct sweep_report *report, struct strbuf *out) {
                   s->verdicts[SWEEP_NEEDLESS], s->doubles, 100 * sweep_needless(s),
                   100 * report->max_needless);
     strbuf_format(out, "beyond double precision: %u\n", s->verdicts[SWEEP_BEYOND]);
-}
-
-static void json_picture(struct json_writer *w, const char *key, const struct sweep_picture *picture) {
-    json_open_object(w, key);
-    json_write_real(w, "off", picture->off);
-    json_write_integer(w, "background", picture->background);
-    json_write_boolean(w, "wrong", picture->wrong);
-    json_close_object(w);
-}
-
-static void json_item(struct json_writer *w, const struct sweep_item *item) {
-    json_open_object(w, NULL);
-    json_write_text(w, "family", str_from(sweep_families[item->family].name));
-    json_write_integer(w, "number", item->number);
-    json_write_text(w, "verdict", str_from(sweep_verdict_names[item->verdict]));
-    json_write_text(w, "precision", str_from(precision_of(item)));
-    json_write_real(w, "trial", item->trial_off);
-    if (isfinite(item->steps))
-        json_write_real(w, "steps", item->steps);
-    json_picture(w, "single", &item->pictures[SWEEP_SINGLE]);
-    json_picture(w, "double", &item->pictures[SWEEP_DOUBLE]);
-    json_write_integer(w, "reference_background", item->pictures[SWEEP_REFERENCE].background);
-    json_write_real(w, "seconds", item->seconds);
-    json_close_object(w);
-}
-
-void sweep_json(const struct sweep_report *report, struct strbuf *out) {
-    const struct sweep *s = report->sweep;
-    struct json_writer w;
-    json_writer_init(&w, out, 2);
-    json_open_object(&w, NULL);
-    json_write_text(&w, "device", str_from(s->device));
-    json_write_integer(&w, "seed", report->input->seed);
-    json_write_integer(&w, "width", report->input->width);
-    json_write_integer(&w, "height", report->input->height);
-    json_write_integer(&w, "count", s->count);
-    json_write_integer(&w, "doubles", s->doubles);
-    for (int i = 0; i < SWEEP_VERDICTS; i++)
-        json_write_integer(&w, sweep_verdict_names[i], s->verdicts[i]);
-    json_write_integer(&w, "max_wrong", report->max_wrong);
-    json_write_real(&w, "max_needless", report->max_needless);
-    json_write_boolean(&w, "broken", sweep_is_broken(report));
-    json_write_real(&w, "seconds", s->seconds);
-    json_open_list(&w, "scenes");
-    for (uint32_t i = 0; i < s->count; i++)
-        json_item(&w, &s->items[i]);
-    json_close_list(&w);
-    json_close_object(&w);
-    json_end(&w);
 }

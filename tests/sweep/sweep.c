@@ -1,4 +1,4 @@
-#include "measure/sweep/sweep.h"
+#include "tests/sweep/sweep.h"
 
 #include "core/heap.h"
 

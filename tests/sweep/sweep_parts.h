@@ -3,11 +3,11 @@
 // Families speak in coordinates of their own, y up; the writer turns, scales and moves all of a scene at once
 // when it writes. Names are not needed: what is wrong is found by looking. Ownership: the writer's texts are
 // freed by sweep_scene.c. Thread safety: one thread.
-#ifndef GLINT_MEASURE_SWEEP_SWEEP_PARTS_H
-#define GLINT_MEASURE_SWEEP_SWEEP_PARTS_H
+#ifndef GLINT_TESTS_SWEEP_SWEEP_PARTS_H
+#define GLINT_TESTS_SWEEP_SWEEP_PARTS_H
 
 #include "core/vec3.h"
-#include "measure/sweep/sweep_scene.h"
+#include "tests/sweep/sweep_scene.h"
 
 struct sweep_writer {
     uint64_t random; // state
@@ -39,7 +39,7 @@ struct sweep_paint {
 
 typedef void sweep_maker(struct sweep_writer *w);
 #define X(NAME, name, title) sweep_maker sweep_make_##name;
-#include "measure/sweep/families.def"
+#include "tests/sweep/families.def"
 #undef X
 
 // ---- numbers (sweep_write.c, as all that is not said to be elsewhere)

@@ -4,8 +4,8 @@
 // scene does not depend on how many others are made. Output: a scene in YAML and the meshes that it names, to
 // be read as files beside it. Ownership: sweep_scene_finish frees the text. Errors: a text whose `failed` is
 // set where memory ended. Thread safety: pure.
-#ifndef GLINT_MEASURE_SWEEP_SWEEP_SCENE_H
-#define GLINT_MEASURE_SWEEP_SWEEP_SCENE_H
+#ifndef GLINT_TESTS_SWEEP_SWEEP_SCENE_H
+#define GLINT_TESTS_SWEEP_SWEEP_SCENE_H
 
 #include "core/strbuf.h"
 
@@ -13,7 +13,7 @@
 
 enum sweep_family {
 #define X(NAME, name, title) SWEEP_##NAME,
-#include "measure/sweep/families.def"
+#include "tests/sweep/families.def"
 #undef X
     SWEEP_FAMILIES,
 };
