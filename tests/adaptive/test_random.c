@@ -11,9 +11,9 @@
 #include "core/number.h"
 #include "files/files.h"
 #include "grammar/ir.h"
-#include "tests/sweep/sweep.h"
 #include "scene/view.h"
 #include "tests/pictures/picture_kit.h"
+#include "tests/sweep/sweep.h"
 
 #include <getopt.h>
 #include <math.h>
