@@ -12,14 +12,14 @@ HEAD = """# How fast glint is
 
 All numbers here come from `bench/run`, which measures glint beside other tracers in one run: they take turns, frame by frame and
 process by process, so that all of them suffer alike from what else the machine does. **Ratios are the result**; times are
-those of the machine that each section names. This page and its figures are made from the reports in
-[bench/measured/](../bench/measured/):
+those of the machine that each section names. This page and its figures are made from reports,
+a section each:
 
 <!-- test: not run: it measures for minutes -->
 ```sh
 ./bench/run --json report.json --targets          # all scenes: a table, the report, and what was aimed at
 ./bench/run --quick --check                       # minutes; status 1 if glint fell behind bench/expected.json
-./bench/run --page docs/performance.md            # this page, from bench/measured
+./bench/run --page docs/performance.md report.json...   # this page, from reports
 ```
 
 [bench/README.md](../bench/README.md) describes how it measures and what the other tracers are. In short:

@@ -67,6 +67,9 @@ fi
     sed -E '/"scene_bytes"/s/"value": [0-9]+/"value": 7/' expected.json >less.json
     expect "or is not" 1 'scene_bytes +7 .*WORSE' - $again --check --expected less.json
     expect "a scene that does not exist" 1 - "there is no scene 'none'" $bench --scene none
+    expect "a page of reports" 0 '' '' $bench --page page.md report.json
+    ok "shows them" grep -q '^## ' page.md
+    expect "a page of none" 1 - 'needs the reports' $bench --page page.md
     expect "a file that is not a report" 1 - 'is not a report of bench/run' $bench --from "$source/docs/schema/glint.schema.json"
     sed 's/"scene": "ball"/"scene": "venus-1000"/' report.json >many.json
     expect "a target that is reached" 0 '^1000 models, memory on the device .* aim met$' '' $bench --from many.json --targets
