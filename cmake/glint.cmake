@@ -62,8 +62,22 @@ foreach(line ${ROOM_LINES})
   string(REGEX MATCH "^([^:]+):(.*)$" line "${line}")
   set(room ${CMAKE_MATCH_1})
   separate_arguments(MAY_${room} UNIX_COMMAND "${CMAKE_MATCH_2}")
+  if(NOT room STREQUAL core)
+    list(PREPEND MAY_${room} core) # which all may include
+  endif()
   list(APPEND ROOMS ${room})
 endforeach()
+
+# A folder inside a room belongs to it, unless it is a room itself. Takes the files of those out of the list.
+function(glint_outside_rooms out room)
+  set(files ${${out}})
+  foreach(other ${ROOMS})
+    if(other MATCHES "^${room}/")
+      list(FILTER files EXCLUDE REGEX "^${other}/")
+    endif()
+  endforeach()
+  set(${out} ${files} PARENT_SCOPE)
+endfunction()
 
 # Each room has an include folder of its own in the build tree, which holds links to its headers and nothing
 # else, so that `#include "parser/tree/tree.h"` compiles only where the table allows it. A room that has rooms
@@ -83,10 +97,12 @@ foreach(room ${ROOMS})
   if(IS_SYMLINK ${folder}/${room})
     file(REMOVE ${folder}/${room})
   endif()
-  file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/${room}/*.h
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/${room}/*.h
        ${CMAKE_SOURCE_DIR}/${room}/*.def)
-  file(MAKE_DIRECTORY ${folder}/${room})
+  glint_outside_rooms(headers ${room})
   foreach(header ${headers})
+    get_filename_component(parent ${folder}/${header} DIRECTORY)
+    file(MAKE_DIRECTORY ${parent})
     file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${header} ${folder}/${header} SYMBOLIC)
   endforeach()
 endforeach()
@@ -121,16 +137,18 @@ function(glint_room_includes target room)
 endfunction()
 
 # glint_room([FAST] [EXCEPT file.c ...] [SOURCES generated.c ...] [LIBS external ...]): the library of the room in this
-# folder: `glint_` and its path with underscores. It holds every C file of the folder except those after
-# EXCEPT. FAST: where time is spent, a tenth of it is worth more text.
+# folder: `glint_` and its path with underscores. It holds every C file of the folder, and of folders inside that are
+# no rooms, except those of the names after EXCEPT. FAST: where time is spent, a tenth of it is worth more text.
 function(glint_room)
   cmake_parse_arguments(R "FAST" "" "EXCEPT;SOURCES;LIBS" ${ARGN})
   file(RELATIVE_PATH room ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   string(REPLACE "/" "_" name glint_${room})
-  file(GLOB sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.c)
-  if(R_EXCEPT)
-    list(REMOVE_ITEM sources ${R_EXCEPT})
-  endif()
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/*.c)
+  glint_outside_rooms(sources ${room})
+  foreach(left_out ${R_EXCEPT})
+    list(FILTER sources EXCLUDE REGEX "/${left_out}$")
+  endforeach()
+  list(TRANSFORM sources PREPEND ${CMAKE_SOURCE_DIR}/)
   set(libs ${MAY_${room}})
   list(FILTER libs EXCLUDE REGEX "\\.h$")
   list(REMOVE_ITEM libs cli) # the program, which is linked with its rooms

@@ -1,6 +1,7 @@
 #!/bin/sh
-# No circles: neither among the rooms of cmake/rooms.txt, nor among the C files of all rooms, of which one needs
-# another where it uses a function or object that the other defines.
+# No circles: neither among the rooms of cmake/rooms.txt, by what they may include and by what their objects use of each
+# other, nor among the C files of all rooms, of which one needs another where it uses a function or object that the
+# other defines.
 # Usage: circles.sh ROOT BUILD, the folder of a build; what it has built is looked at.
 . "$(dirname -- "$0")/lib.sh"
 command -v nm >/dev/null || exit 77
@@ -33,7 +34,26 @@ file_needs() {
 # shellcheck disable=SC2046 -- our paths hold no blanks
 found=$(nm -A -P $(objects "$2") 2>/dev/null | file_needs "$2")
 [ -n "$found" ] || { echo "cmake/rooms.txt:1: no object of a room is in $2"; exit 1; }
+# What rooms use of each other, by what their files do.
+between_rooms() {
+    printf '%s\n' "$found" | awk '
+    FILENAME == "cmake/rooms.txt" {
+        if (/^[a-z]/) rooms[substr($0, 1, index($0, ":") - 1)]
+        next
+    }
+    function room_of(path) {
+        while (sub(/\/[^\/]*$/, "", path))
+            if (path in rooms) return path
+        return path
+    }
+    {
+        from = room_of($1)
+        to = room_of($2)
+        if (from != to) print from, to, $3
+    }' cmake/rooms.txt -
+}
 {
     room_needs
+    between_rooms
     printf '%s\n' "$found"
 } | awk -f "$LINT/circles.awk" | verdict

@@ -25,19 +25,21 @@ kernels=$(ours '^shaders/.*\.(glsl|comp)$')
         sub(/:.*/, "", room)
         sub(/^[^:]*:/, "")
         rooms[room] = 1
+        allowed[room, "core"] = 1
         count = split($0, may)
         for (i = 1; i <= count; i++) allowed[room, may[i]] = 1
         next
     }
-    function folder(path) {
-        sub(/\/[^\/]*$/, "", path)
-        return path
+    function room_of(path) {
+        while (sub(/\/[^\/]*$/, "", path))
+            if (path in rooms) return path
+        return ""
     }
-    function own(path, target,    room) {
-        room = folder(path)
+    function own(path, target,    room, other) {
         if (path ~ /^(tests|bench|tools)\//) return 1
-        if (!(room in rooms)) return 0
-        return folder(target) == room || (room, folder(target)) in allowed || (room, target) in allowed
+        room = room_of(path)
+        other = room_of(target)
+        return room != "" && (other == room || (room, other) in allowed || (room, target) in allowed)
     }
     function foreign(path, target) {
         # Which says their versions.
@@ -57,7 +59,7 @@ kernels=$(ours '^shaders/.*\.(glsl|comp)$')
         if (target ~ /^X11\//) return path ~ /^tests\/live\//
         if (target ~ /^xxhash/) return path ~ /^core\//
         if (target ~ /^pthread/) return path ~ /^(core|tests)\//
-        return !(folder(target) in rooms)
+        return room_of(target) == ""
     }
     /^[ \t]*#[ \t]*include[ \t]*["<]/ {
         target = $0

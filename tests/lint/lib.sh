@@ -37,9 +37,10 @@ code() {
 # The objects of the build in this folder that were made from the files of rooms.
 objects() {
     for room in $(sed -n 's/^\([a-z][^:]*\):.*/\1/p' cmake/rooms.txt); do
-        for object in "$1/$room"/CMakeFiles/*.dir/*.c.o; do
-            source=${object##*/}
-            [ -f "$object" ] && [ -f "$room/${source%.o}" ] && printf '%s\n' "$object"
+        [ -d "$1/$room/CMakeFiles" ] || continue
+        find "$1/$room/CMakeFiles" -name '*.c.o' | sort | while IFS= read -r object; do
+            source=${object#*.dir/}
+            [ ! -f "$room/${source%.o}" ] || printf '%s\n' "$object"
         done
     done
 }
