@@ -3,7 +3,7 @@
 #define GLINT_ASSETS_LOADER_H
 
 #include "assets/file/asset_file.h"
-#include "assets/read_mtl.h"
+#include "assets/obj/read_mtl.h"
 #include "assets/store.h"
 #include "core/str_map.h"
 

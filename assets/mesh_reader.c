@@ -1,8 +1,8 @@
 #include "assets/mesh_reader.h"
 
 #include "assets/gltf/read_gltf.h"
+#include "assets/obj/read_obj.h"
 #include "assets/ply/read_ply.h"
-#include "assets/read_obj.h"
 #include "assets/stl/read_stl.h"
 #include "grammar/mesh_format.h"
 

@@ -8,13 +8,13 @@
 // told of, how many of the others raise a false alarm, how many of these have no pixel off at all, and of how
 // many what is said of the share is not true. Then each SCENE at 1024x1024 pixels: frames and
 // audits in turn, and the audit's time as a part of the frame's.
-#include "app/audit.h"
-#include "app/precision.h"
 #include "bench/kit.h"
 #include "core/number.h"
 #include "files/files.h"
 #include "grammar/ir.h"
+#include "load/session_precision.h"
 #include "reference/reference.h"
+#include "render/audit.h"
 #include "shaders/features.h"
 #include "tests/sweep/sweep.h"
 

@@ -7,11 +7,11 @@
 // threads; bytes of the scene on the device; nodes and items tested per ray; processor time of a frame, the
 // least of the rounds; and how many pixels of the two pictures differ in a bit. --save writes both pictures,
 // to STEM.copies.pfm and STEM.instances.pfm. Precision is the scene's setting; `auto` is single.
-#include "app/precision.h"
 #include "bench/clocks.h"
 #include "bench/kit.h"
 #include "core/number.h"
 #include "grammar/ir.h"
+#include "load/session_precision.h"
 
 #include <getopt.h>
 #include <math.h>

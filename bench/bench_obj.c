@@ -7,7 +7,7 @@
 // the rounds; the median over the rounds of the processor time as a multiple of that of reading in order; and
 // where this makes sense, whether the results are the same to the bit.
 #include "assets/mesh_build.h"
-#include "assets/read_obj.h"
+#include "assets/obj/read_obj.h"
 #include "bench/clocks.h"
 #include "bench/mesh/mesh.h"
 #include "core/strbuf.h"

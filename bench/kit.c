@@ -1,8 +1,8 @@
 #include "bench/kit.h"
 
-#include "app/precision.h"
 #include "core/clock.h"
 #include "diag/diag_text.h"
+#include "load/session_precision.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -6,8 +6,8 @@
 #ifndef GLINT_BENCH_KIT_H
 #define GLINT_BENCH_KIT_H
 
-#include "app/session.h"
 #include "bench/clocks.h"
+#include "load/session.h"
 #include "picture/write/image.h"
 #include "tracer/render/render.h"
 

@@ -3,7 +3,6 @@
 #ifndef GLINT_CLI_CLI_H
 #define GLINT_CLI_CLI_H
 
-#include "app/session.h"
 #include "cli/options/options_batch.h"
 #include "cli/options/options_farm.h"
 #include "cli/options/options_part.h"
@@ -14,6 +13,7 @@
 #include "core/strbuf.h"
 #include "diag/diag.h"
 #include "diag/diag_policy.h"
+#include "load/session.h"
 #include "picture/formats/formats.h"
 #include "picture/write/image.h"
 
@@ -46,7 +46,7 @@ enum cli_stats {
 struct cli_output {
     const char *path; // "-": standard output
     enum image_format format;
-    bool is_part; // a file of parts (app/parts), of no such format
+    bool is_part; // a file of parts (render/parts), of no such format
     int arg;      // its place on the command line; 0: it was not given
 };
 

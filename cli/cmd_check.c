@@ -3,10 +3,6 @@
 //
 // Files are checked at the same time, each with a session, a sink and a record of its own; what is reported
 // about each is kept until all are done, so that the output does not depend on which was first.
-#include "app/check.h"
-#include "app/fixes.h"
-#include "app/scope/baseline.h"
-#include "app/scope/changed.h"
 #include "cli/cli.h"
 #include "cli/fix.h"
 #include "cli/folder_scenes.h"
@@ -15,6 +11,10 @@
 #include "core/str_map.h"
 #include "diag/diag_report_text.h"
 #include "diag/diag_text.h"
+#include "edit/fixes.h"
+#include "load/check.h"
+#include "load/scope/baseline.h"
+#include "load/scope/changed.h"
 #include "parser/tree/reader_text.h"
 
 #include <errno.h>

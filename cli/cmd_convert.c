@@ -1,6 +1,6 @@
 // glint convert IN OUT: what the scene means, in the other spelling.
-#include "app/convert.h"
 #include "cli/cli.h"
+#include "edit/convert.h"
 #include "grammar/schema.h"
 
 #include <string.h>

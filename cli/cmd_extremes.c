@@ -1,11 +1,11 @@
 // glint extremes SCENE: the scene moved, scaled, far away, lit from its own surfaces ...: what breaks.
-#include "app/settings/extreme_bounds.h"
 #include "cli/cli.h"
 #include "cli/device.h"
 #include "cli/progress.h"
 #include "core/nearest.h"
 #include "diag/diag_text.h"
 #include "files/files.h"
+#include "load/settings/extreme_bounds.h"
 
 #include <string.h>
 

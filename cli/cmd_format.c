@@ -1,8 +1,8 @@
 // glint format FILE...: scene files in canonical layout.
-#include "app/layout.h"
 #include "cli/folder_scenes.h"
 #include "core/text_diff.h"
 #include "diag/diag_text.h"
+#include "edit/layout.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 // glint pick SCENE X,Y: what is seen at a pixel, and the path of its ray.
-#include "app/pick.h"
 #include "cli/cli.h"
 #include "cli/device.h"
 #include "core/number.h"
 #include "grammar/ir.h"
+#include "render/pick.h"
 
 #include <string.h>
 

@@ -1,8 +1,8 @@
 // glint schema: prints what is made from the language's table, or links scene files to it.
 #include "cli/cli.h"
 
-#include "app/schema_line.h"
 #include "core/nearest.h"
+#include "edit/schema_line.h"
 #include "files/output.h"
 #include "grammar/emit/emit.h"
 

@@ -1,7 +1,7 @@
 #include "cli/fix.h"
 
-#include "app/fixes.h"
 #include "core/text_diff.h"
+#include "edit/fixes.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,8 +2,8 @@
 #ifndef GLINT_CLI_FIX_H
 #define GLINT_CLI_FIX_H
 
-#include "app/session.h"
 #include "cli/cli.h"
+#include "load/session.h"
 
 // Repairs the scene of `options` and the files that it includes, as --fix says: writes them, or with --diff
 // appends a patch. Returns an exit code.

@@ -1,6 +1,6 @@
 #include "cli/folder_scenes.h"
 
-#include "app/check.h"
+#include "load/check.h"
 
 #include <errno.h>
 #include <string.h>

@@ -2,8 +2,8 @@
 #ifndef GLINT_CLI_FOLDER_SCENES_H
 #define GLINT_CLI_FOLDER_SCENES_H
 
-#include "app/scope/scene_names.h"
 #include "cli/cli.h"
+#include "load/scope/scene_names.h"
 
 // Adds those of a folder. CLI_OK, or CLI_FILE with an error printed.
 int cli_find_scenes(struct cli *cli, const char *folder, struct scene_names *names);

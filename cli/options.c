@@ -1,9 +1,9 @@
 // The one table of options, its parser and its help.
 #include "cli/cli.h"
 
-#include "app/aov/aov.h"
-#include "app/fixes.h"
 #include "core/nearest.h"
+#include "edit/fixes.h"
+#include "render/aov/aov.h"
 
 #include <getopt.h>
 #include <stdio.h>

@@ -3,8 +3,8 @@
 // options.
 #include "cli/cli.h"
 
-#include "app/settings/config.h"
 #include "core/nearest.h"
+#include "load/settings/config.h"
 
 #include <string.h>
 #include <strings.h>

@@ -1,9 +1,9 @@
 // Values of options: counts, sizes, limits, folders.
 #include "cli/cli.h"
 
-#include "app/aov/aov.h"
 #include "core/nearest.h"
 #include "core/number.h"
+#include "render/aov/aov.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -2,14 +2,14 @@
 #ifndef GLINT_CLI_RENDER_JOB_H
 #define GLINT_CLI_RENDER_JOB_H
 
-#include "app/audit.h"
-#include "app/deadline.h"
-#include "app/parts/part_file.h"
-#include "app/shot.h"
-#include "app/stats/stats.h"
 #include "cli/cli.h"
 #include "cli/progress.h"
 #include "grammar/ir.h"
+#include "render/audit.h"
+#include "render/deadline.h"
+#include "render/parts/part_file.h"
+#include "render/shot.h"
+#include "render/stats/stats.h"
 
 struct cli_opening;
 struct render_aovs;

@@ -1,7 +1,7 @@
 // glint render --device reference: the same files as a device makes, by the tracer in double precision.
-#include "app/exact.h"
 #include "cli/render_job.h"
 #include "core/json_write.h"
+#include "render/by_reference.h"
 
 #include <stdio.h>
 #include <string.h>

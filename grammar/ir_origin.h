@@ -60,7 +60,7 @@ struct ir_origin {
     struct {
         int32_t frames; // 0: nothing moves
         double rate;
-        unsigned inexact; // of its expressions: motion/expression.h
+        unsigned inexact; // of its expressions: core/expression.h
     } motion;             // what the animation said, also once a frame was taken
 };
 

@@ -40,7 +40,7 @@ enum schema_text {
     SCHEMA_TEXT_FOREIGN_NAME, // a name from another file: any text but the empty one
     SCHEMA_TEXT_PATH,
     SCHEMA_TEXT_TARGET, // the way to a number of the scene, as --set has it: any text but the empty one
-    SCHEMA_TEXT_VALUES, // one to four numbers, expressions (motion/expression.h) or #rrggbb, with ", "
+    SCHEMA_TEXT_VALUES, // one to four numbers, expressions (core/expression.h) or #rrggbb, with ", "
                         // between them; YAML: one of them, or a list
 };
 

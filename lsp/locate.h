@@ -4,8 +4,8 @@
 #ifndef GLINT_LSP_LOCATE_H
 #define GLINT_LSP_LOCATE_H
 
-#include "app/session.h"
 #include "grammar/schema.h"
+#include "load/session.h"
 
 struct located {
     const struct schema_element *schema; // NULL: nothing

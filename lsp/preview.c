@@ -4,10 +4,10 @@
 // takes the place of: of texts that change while one types, the newest is what is worth a picture.
 #include "lsp/server_private.h"
 
-#include "app/preview/preview.h"
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "grammar/ir.h"
+#include "render/preview/preview.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -10,7 +10,7 @@
 #ifndef GLINT_LSP_SCENE_H
 #define GLINT_LSP_SCENE_H
 
-#include "app/session.h"
+#include "load/session.h"
 #include "lsp/document.h"
 
 struct lsp_scene {

@@ -2,8 +2,8 @@
 #include "grammar/schema.h"
 #include "lsp/scene.h"
 
-#include "app/check.h"
 #include "grammar/ir_walk.h"
+#include "load/check.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -12,7 +12,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-struct preview_devices; // app/preview/preview.h
+struct preview_devices; // render/preview/preview.h
 struct session_options;
 
 // Why a stream of the server could not be read or written.

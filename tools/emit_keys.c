@@ -1,7 +1,7 @@
-// Writes a JSON Schema that is made from the tables of keys (app/settings/keys.h) to standard output:
+// Writes a JSON Schema that is made from the tables of keys (load/settings/keys.h) to standard output:
 //     emit_keys settings|bounds|tests
 // The target `emitted` writes them to where they are committed.
-#include "app/settings/key_schema.h"
+#include "load/settings/key_schema.h"
 
 #include <stdio.h>
 #include <string.h>

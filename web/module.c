@@ -1,6 +1,6 @@
 #include "web/module.h"
 
-#include "app/session.h"
+#include "load/session.h"
 #include "lsp/server.h"
 
 #include <emscripten.h>

@@ -3,11 +3,11 @@
 // libraries.
 //
 //     turns_embree [--system embree|robust|instances] ... (turns.h)
-#include "app/session.h"
 #include "bench/embree/peer.h"
 #include "bench/turns/turns.h"
 #include "core/parallel.h"
 #include "grammar/ir.h"
+#include "load/session.h"
 
 #include <embree3/rtcore.h>
 #include <string.h>

@@ -6,12 +6,12 @@
 // The first prints an object of JSON: what the tool cannot show of the scene, and whether pictures are
 // encoded as sRGB. The other writes a binary PPM of 8 bits as PNG. Exit: 0 done, 1 the scene, a file or
 // memory failed, 2 usage.
-#include "app/session.h"
 #include "bench/export/export.h"
 #include "core/number.h"
 #include "diag/diag_text.h"
 #include "files/output.h"
 #include "grammar/ir.h"
+#include "load/session.h"
 #include "picture/write/encode_parts.h"
 #include "scene/transform.h"
 

@@ -6,10 +6,10 @@
 //
 // Scenes that need more than that, and devices without VK_KHR_ray_tracing_pipeline, end with status 77 and
 // say why.
-#include "app/session.h"
 #include "bench/pipeline/rt.h"
 #include "bench/turns/turns.h"
 #include "grammar/ir.h"
+#include "load/session.h"
 #include "scene/transform.h"
 
 #include <stdlib.h>

@@ -13,8 +13,8 @@
 #ifndef GLINT_BENCH_TURNS_TURNS_H
 #define GLINT_BENCH_TURNS_TURNS_H
 
-#include "app/session.h"
 #include "core/json_write.h"
+#include "load/session.h"
 #include "picture/write/image.h"
 
 enum {

@@ -2,11 +2,11 @@
 // model in place of instances; and the method of the course project that it grew out of.
 //
 //     turns_glint [--system single|double|baked|baseline] ... (turns.h)
-#include "app/shot.h"
 #include "bench/kit.h"
 #include "bench/original/original.h"
 #include "bench/turns/turns.h"
 #include "grammar/ir.h"
+#include "render/shot.h"
 
 #include <string.h>
 

@@ -2,9 +2,9 @@
 #ifndef GLINT_CLI_BANDS_BANDS_RUN_H
 #define GLINT_CLI_BANDS_BANDS_RUN_H
 
-#include "app/parts/bands.h"
 #include "cli/render_job.h"
 #include "core/parallel.h"
+#include "render/parts/bands.h"
 
 struct bands_run {
     struct render_job *job;

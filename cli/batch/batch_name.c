@@ -1,8 +1,8 @@
 // What the pictures of a batch are called.
-#include "app/frames/frame_name.h"
 #include "cli/batch/batch_job.h"
 #include "core/heap.h"
 #include "files/files.h"
+#include "render/frames/frame_name.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 // From the command line to jobs: scenes, in each the sweep's grid, in each the frames, in each the cameras.
 #include "cli/batch/batch_job.h"
+#include "core/expression.h"
 #include "files/stream.h"
 #include "grammar/ir.h"
-#include "motion/expression.h"
 
 #include <errno.h>
 #include <fcntl.h>

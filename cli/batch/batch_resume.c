@@ -4,11 +4,11 @@
 // It begins with lines of text, filled up to HEAD_BYTES: what the list is, by a hash, and how many pictures
 // it has. A slot for each picture follows, which is there once its files are, under their names: whatever
 // ends the process, a slot is there or not, by its seal.
-#include "app/parts/bands.h"
 #include "cli/batch/batch_run.h"
 #include "core/hash128.h"
 #include "files/stream.h"
 #include "grammar/ir.h"
+#include "render/parts/bands.h"
 #include "scene/content.h"
 
 #include <errno.h>

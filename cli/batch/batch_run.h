@@ -3,13 +3,13 @@
 #ifndef GLINT_CLI_BATCH_BATCH_RUN_H
 #define GLINT_CLI_BATCH_BATCH_RUN_H
 
-#include "app/live/live.h"
 #include "cli/batch/batch_job.h"
 #include "cli/batch/film.h"
 #include "cli/progress.h"
 #include "cli/render_job.h"
 #include "core/parallel.h"
 #include "files/spool.h"
+#include "render/live/live.h"
 
 // A picture that was traced, while it is encoded.
 struct batch_made {

@@ -1,7 +1,7 @@
 // glint render of many pictures: frames, a sweep, several scenes, a film.
 //
-// One session, one device, one store of meshes and trees for all (app/live). While a picture is traced, the
-// next scene is read and the last picture encoded, each on one more thread.
+// One session, one device, one store of meshes and trees for all (render/live). While a picture is traced,
+// the next scene is read and the last picture encoded, each on one more thread.
 #include "cli/batch/batch_run.h"
 #include "cli/device.h"
 #include "cli/parts/part_made.h"

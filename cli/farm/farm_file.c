@@ -1,8 +1,8 @@
 // The plan as a file of its folder: lines of a word and its value, as the head of a part has them.
-#include "app/frames/frame_name.h"
 #include "cli/farm/farm.h"
 #include "files/output.h"
 #include "files/stream.h"
+#include "render/frames/frame_name.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -1,8 +1,6 @@
 // How long a task takes, measured: small pictures of the first, the middle and the last frame, as a task
 // would make them. The time of a pixel, with all its samples, is that of the whole picture; where a small
 // picture is over at once, a larger one is measured.
-#include "app/parts/part_file.h"
-#include "app/shot.h"
 #include "cli/batch/batch_job.h"
 #include "cli/device.h"
 #include "cli/farm/farm.h"
@@ -10,6 +8,8 @@
 #include "cli/progress.h"
 #include "core/clock.h"
 #include "grammar/ir.h"
+#include "render/parts/part_file.h"
+#include "render/shot.h"
 
 #include <math.h>
 #include <stdio.h>

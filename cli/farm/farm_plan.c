@@ -1,9 +1,9 @@
 // The plan that the command line of glint farm asks for.
-#include "app/frames/frame_name.h"
-#include "app/parts/part_file.h"
 #include "cli/batch/batch_job.h"
 #include "cli/farm/farm.h"
 #include "cli/render_job.h"
+#include "render/frames/frame_name.h"
+#include "render/parts/part_file.h"
 
 #include <errno.h>
 #include <stdlib.h>

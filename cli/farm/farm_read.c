@@ -1,8 +1,8 @@
 // The plan of a folder, read back. Knows nothing of the command line, so that fuzzing reads plans without
 // one.
-#include "app/frames/frame_name.h"
-#include "app/parts/part_file.h"
 #include "cli/farm/farm.h"
+#include "render/frames/frame_name.h"
+#include "render/parts/part_file.h"
 
 #include <string.h>
 

@@ -1,10 +1,10 @@
 // glint farm status DIR: which tasks are done, by their files and what they logged, and the command that does
 // the rest.
-#include "app/parts/part_file.h"
 #include "cli/farm/farm.h"
 #include "core/heap.h"
 #include "core/json_write.h"
 #include "files/stream.h"
+#include "render/parts/part_file.h"
 
 #include <stdio.h>
 #include <stdlib.h>

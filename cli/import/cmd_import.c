@@ -1,10 +1,10 @@
 // glint import MESH -o SCENE: a scene to go on with, and the images that it needs beside it.
-#include "app/convert.h"
-#include "app/import/plan.h"
-#include "app/import/scene_text.h"
 #include "cli/cli.h"
+#include "edit/convert.h"
 #include "grammar/mesh_format.h"
 #include "grammar/schema.h"
+#include "load/import/plan.h"
+#include "load/import/scene_text.h"
 
 #include <string.h>
 #include <sys/stat.h>

@@ -1,7 +1,7 @@
 // glint inspect SCENE|PICTURE: counts, bounds, features with their reasons, buffers; or the canonical dump.
 #include "cli/inspect/inspect.h"
+#include "core/expression.h"
 #include "grammar/print/ir_print.h"
-#include "motion/expression.h"
 
 static bool describe(struct session *session, bool as_json, struct strbuf *out) {
     struct inspected_scene scene = {.session = session};

@@ -4,9 +4,9 @@
 #ifndef GLINT_CLI_INSPECT_INSPECT_H
 #define GLINT_CLI_INSPECT_INSPECT_H
 
-#include "app/precision.h"
 #include "cli/cli.h"
 #include "grammar/ir_features.h"
+#include "load/session_precision.h"
 #include "tracer/flatten/flatten.h"
 
 enum {

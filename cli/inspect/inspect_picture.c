@@ -1,9 +1,9 @@
 #include "cli/inspect/inspect.h"
 
-#include "app/record/record.h"
 #include "core/json_write.h"
 #include "files/files.h"
 #include "picture/metrics/picture_file.h"
+#include "render/record/record.h"
 
 struct inspected {
     const char *path;

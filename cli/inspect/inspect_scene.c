@@ -1,6 +1,6 @@
 // What both reports on a scene tell.
-#include "app/where.h"
 #include "cli/inspect/inspect.h"
+#include "load/where.h"
 
 uint32_t inspect_named_materials(const struct ir_scene *scene) {
     uint32_t named = 0;

@@ -1,8 +1,8 @@
 // glint lsp: the language server, over standard input and output.
-#include "app/preview/preview.h"
 #include "cli/cli.h"
 #include "cli/device.h"
 #include "lsp/server.h"
+#include "render/preview/preview.h"
 
 #include <string.h>
 #include <unistd.h>

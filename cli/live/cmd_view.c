@@ -1,11 +1,11 @@
 // glint view SCENE: a window (view/), with what it says on standard output and the findings on standard
 // error.
-#include "app/live/live_report.h"
 #include "cli/cli.h"
 #include "cli/device.h"
 #include "cli/progress.h"
 #include "grammar/ir.h"
-#include "view/viewer.h"
+#include "render/live/live_report.h"
+#include "window/viewer.h"
 
 #include <stdio.h>
 #include <string.h>

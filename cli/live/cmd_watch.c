@@ -1,5 +1,4 @@
 // glint render SCENE --watch: a picture now, and one after each change of a file that it is made from.
-#include "app/live/live_report.h"
 #include "cli/cli.h"
 #include "cli/device.h"
 #include "cli/live/coarse.h"
@@ -9,6 +8,7 @@
 #include "core/clock.h"
 #include "grammar/ir.h"
 #include "picture/write/image.h"
+#include "render/live/live_report.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,10 +1,10 @@
 // A picture of few pixels, enlarged to all of them: something to see before a frame that takes long.
 //
-// Thread safety: as app/shot.h.
+// Thread safety: as render/shot.h.
 #ifndef GLINT_CLI_LIVE_COARSE_H
 #define GLINT_CLI_LIVE_COARSE_H
 
-#include "app/shot.h"
+#include "render/shot.h"
 
 // By how much to shrink width and height, by the seconds that a sample of a pixel took before (0: not known);
 // 1: the whole picture is there as soon.

@@ -1,8 +1,8 @@
 // glint deps SCENE...: every file that the scenes read.
 #include "cli/cli.h"
 
-#include "app/inventory.h"
 #include "core/json_write.h"
+#include "load/inventory.h"
 
 #include <string.h>
 

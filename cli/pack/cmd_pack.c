@@ -1,8 +1,8 @@
 // glint pack SCENE OUT: a scene and all its files in one folder or archive.
 #include "cli/pack/pack_scene.h"
 
-#include "app/pack/pack.h"
 #include "cli/progress.h"
+#include "edit/pack/pack.h"
 
 #include <string.h>
 

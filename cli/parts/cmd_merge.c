@@ -1,11 +1,11 @@
 // glint merge OUT PART...: parts of a picture, to the picture.
-#include "app/frames/frame_name.h"
-#include "app/parts/parts.h"
 #include "cli/parts/merge_rows.h"
 #include "cli/pictures/done.h"
 #include "cli/pictures/provenance.h"
 #include "cli/progress.h"
 #include "cli/render_job.h"
+#include "render/frames/frame_name.h"
+#include "render/parts/parts.h"
 
 #include <stdio.h>
 #include <string.h>

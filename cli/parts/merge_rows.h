@@ -3,8 +3,8 @@
 #ifndef GLINT_CLI_PARTS_MERGE_ROWS_H
 #define GLINT_CLI_PARTS_MERGE_ROWS_H
 
-#include "app/parts/parts.h"
 #include "cli/render_job.h"
+#include "render/parts/parts.h"
 
 // Whether the job's output can be made so of these parts.
 bool merge_is_by_rows(const struct render_job *job, const struct part *parts, uint32_t count);

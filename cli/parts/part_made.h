@@ -5,9 +5,9 @@
 #ifndef GLINT_CLI_PARTS_PART_MADE_H
 #define GLINT_CLI_PARTS_PART_MADE_H
 
-#include "app/parts/part_file.h"
-#include "app/shot.h"
 #include "cli/cli.h"
+#include "render/parts/part_file.h"
+#include "render/shot.h"
 
 // Has a shot of the whole picture render the part, whose size, region and samples are known. false: see
 // gpu_error.

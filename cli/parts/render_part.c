@@ -1,5 +1,4 @@
 // A render job that makes a part of a picture.
-#include "app/parts/parts.h"
 #include "cli/device.h"
 #include "cli/parts/part_made.h"
 #include "cli/pictures/provenance.h"
@@ -7,6 +6,7 @@
 #include "core/hash128.h"
 #include "core/heap.h"
 #include "reference/cache.h"
+#include "render/parts/parts.h"
 
 #include <stdio.h>
 #include <string.h>

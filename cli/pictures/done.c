@@ -1,11 +1,11 @@
 #include "cli/pictures/done.h"
 
-#include "app/record/record.h"
 #include "cli/device.h"
 #include "cli/pictures/provenance.h"
 #include "cli/render_job.h"
 #include "files/stream.h"
 #include "picture/metrics/picture_file.h"
+#include "render/record/record.h"
 
 #include <stdio.h>
 #include <string.h>

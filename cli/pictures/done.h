@@ -1,14 +1,14 @@
 // Whether a picture or part that is to be written is there already: --skip-done.
 //
-// A file counts if it is whole and says of itself what the new one would say (app/record): the same scene by
-// its hash, version of glint, device, settings and size; of a part also the same pixels. Anything else, a
+// A file counts if it is whole and says of itself what the new one would say (render/record): the same scene
+// by its hash, version of glint, device, settings and size; of a part also the same pixels. Anything else, a
 // file that cannot be read included, is rendered again. Ownership: text lies in cli->arena. Thread safety: as
 // cli.h.
 #ifndef GLINT_CLI_PICTURES_DONE_H
 #define GLINT_CLI_PICTURES_DONE_H
 
-#include "app/parts/part_file.h"
 #include "cli/cli.h"
+#include "render/parts/part_file.h"
 #include "tracer/gpu/gpu.h"
 
 // What would be rendered.

@@ -1,7 +1,7 @@
 #include "cli/pictures/provenance.h"
 
-#include "app/record/record.h"
 #include "grammar/ir.h"
+#include "render/record/record.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-// What the pictures that glint writes say of how they were made (app/record).
+// What the pictures that glint writes say of how they were made (render/record).
 //
 // Ownership: text lies in cli->arena. Thread safety: as cli.h; session and device are only read.
 #ifndef GLINT_CLI_PICTURES_PROVENANCE_H

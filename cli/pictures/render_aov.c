@@ -1,14 +1,14 @@
 // What else is known of a picture's pixels: --aov, by the tracer that made the picture.
-#include "app/aov/aov.h"
-#include "app/aov/matte.h"
-#include "app/aov/names.h"
-#include "app/exact.h"
 #include "cli/device.h"
 #include "cli/render_job.h"
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "picture/write/exr_file.h"
 #include "reference/reference.h"
+#include "render/aov/aov.h"
+#include "render/aov/matte.h"
+#include "render/aov/names.h"
+#include "render/by_reference.h"
 #include "scene/view.h"
 
 #include <stdio.h>

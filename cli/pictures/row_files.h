@@ -5,9 +5,9 @@
 #ifndef GLINT_CLI_PICTURES_ROW_FILES_H
 #define GLINT_CLI_PICTURES_ROW_FILES_H
 
-#include "app/parts/part_file.h"
 #include "cli/cli.h"
 #include "picture/write/rows.h"
+#include "render/parts/part_file.h"
 
 // As a file of parts if `part` is not NULL, which then says of what. CLI_OK, or an exit code. *rows_ended:
 // rows->take was false, which is the only thing that is not printed; the exit code is then CLI_FILE.

@@ -1,12 +1,12 @@
 #include "cli/study.h"
 
-#include "app/precision.h"
 #include "cli/device.h"
 #include "cli/progress.h"
 #include "core/hash128.h"
 #include "core/nearest.h"
 #include "core/number.h"
 #include "grammar/ir.h"
+#include "load/session_precision.h"
 #include "measure/tradeoff/report/report.h"
 #include "measure/tradeoff/study/study_store.h"
 #include "reference/cache.h"

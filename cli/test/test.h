@@ -5,9 +5,9 @@
 #ifndef GLINT_CLI_TEST_TEST_H
 #define GLINT_CLI_TEST_TEST_H
 
-#include "app/settings/test_file.h"
 #include "cli/cli.h"
 #include "files/files.h"
+#include "load/settings/test_file.h"
 #include "picture/metrics/metrics.h"
 
 enum test_state {

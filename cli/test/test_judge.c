@@ -2,11 +2,11 @@
 // reference's record says otherwise.
 #include "cli/test/test.h"
 
-#include "app/record/record.h"
 #include "core/heap.h"
 #include "files/files.h"
 #include "picture/metrics/heatmap.h"
 #include "picture/metrics/picture_file.h"
+#include "render/record/record.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,17 +1,17 @@
 // The pictures of all cases, one after another: a device is opened once for those that follow each other, and
-// a scene is read once for its pictures; meshes, images and trees are kept from scene to scene (app/live).
+// a scene is read once for its pictures; meshes, images and trees are kept from scene to scene (render/live).
 #include "cli/test/test.h"
 
-#include "app/check.h"
-#include "app/exact.h"
-#include "app/live/live.h"
-#include "app/record/record.h"
 #include "cli/device.h"
 #include "cli/pictures/provenance.h"
 #include "cli/progress.h"
 #include "core/clock.h"
 #include "core/nearest.h"
 #include "grammar/ir.h"
+#include "load/check.h"
+#include "render/by_reference.h"
+#include "render/live/live.h"
+#include "render/record/record.h"
 
 #include <string.h>
 

@@ -4,9 +4,9 @@
 #ifndef GLINT_CLI_VERIFY_VERIFY_H
 #define GLINT_CLI_VERIFY_VERIFY_H
 
-#include "app/record/record.h"
 #include "cli/cli.h"
 #include "picture/metrics/picture_file.h"
+#include "render/record/record.h"
 
 // Between devices and versions, of displayed values (docs/accuracy.md, "Other devices"): the largest share of
 // pixels that are further off than VERIFY_OFF in a channel, and the mean of all channels.

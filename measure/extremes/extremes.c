@@ -4,8 +4,8 @@
 #include "core/clock.h"
 #include "core/parallel.h"
 #include "measure/hit_errors.h"
+#include "measure/precision.h"
 #include "picture/metrics/metrics.h"
-#include "precision/precision.h"
 #include "reference/reference.h"
 #include "tracer/render/render.h"
 

@@ -81,7 +81,7 @@ struct extremes_progress {
     void *context;
 };
 
-// The bounds that hold where no others are given: YAML (app/settings/extreme_bounds.h), without a NUL after
+// The bounds that hold where no others are given: YAML (load/settings/extreme_bounds.h), without a NUL after
 // it.
 extern const char extremes_default_bounds[];
 extern const size_t extremes_default_bounds_bytes;

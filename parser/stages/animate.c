@@ -1,6 +1,6 @@
 // What moves: gives the scene its values in a frame, or checks all frames of it.
 #include "parser/stages/animate.h"
-#include "motion/expression.h"
+#include "core/expression.h"
 
 #include "core/heap.h"
 #include "parser/bind/say.h"

@@ -4,9 +4,9 @@
 #ifndef GLINT_PARSER_STAGES_ANIMATE_H
 #define GLINT_PARSER_STAGES_ANIMATE_H
 
+#include "core/curve.h"
+#include "core/expression.h"
 #include "grammar/ir.h"
-#include "motion/curve.h"
-#include "motion/expression.h"
 #include "parser/stages/override.h"
 
 // A text of one number or several, compiled.

@@ -5,8 +5,8 @@
 //   errors: a line a scene, against SAMPLES samples   hold: the same in less time, without how many samples
 //   all would need    unseen: of any scenes, only what a picture promises    cuts: bands, workgroups and
 //   dispatches of other sizes, on a device that traces as GPUs do with -storage
-#include "app/precision.h"
 #include "grammar/ir.h"
+#include "load/session_precision.h"
 #include "scene/view.h"
 #include "tests/pictures/picture_kit.h"
 

@@ -7,10 +7,10 @@
 // (measure/sweep): the root of the mean square that the picture is off, what it states of it, and its
 // samples. A long run is cut into several by --first. The exit status is 1 if more than --max-broken pictures
 // err by more than they state as their most.
-#include "app/precision.h"
 #include "core/number.h"
 #include "files/files.h"
 #include "grammar/ir.h"
+#include "load/session_precision.h"
 #include "scene/view.h"
 #include "tests/pictures/picture_kit.h"
 #include "tests/sweep/sweep.h"

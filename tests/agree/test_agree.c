@@ -10,12 +10,12 @@
 //
 // Small pictures by the reference, which runs where there is no device, and with --device by a device; then
 // it ends with 77 where there is none. Files come from memory; the scene around them is written here.
-#include "app/check.h"
-#include "app/exact.h"
 #include "core/strbuf.h"
 #include "diag/diag_text.h"
 #include "grammar/print/ir_print.h"
+#include "load/check.h"
 #include "picture/formats/formats.h"
+#include "render/by_reference.h"
 #include "tests/agree/damaged.h"
 #include "tests/agree/mutate.h"
 #include "tests/generate/generate.h"

@@ -8,13 +8,13 @@
 // other rows.
 //
 // Usage: test_attributes WORK_FOLDER
-#include "app/exact.h"
-#include "app/pick.h"
 #include "files/output.h"
 #include "grammar/ir.h"
 #include "grammar/ir_walk.h"
 #include "grammar/print/ir_print.h"
 #include "grammar/schema.h"
+#include "render/by_reference.h"
+#include "render/pick.h"
 #include "tests/generate/generate.h"
 #include "tests/pictures/picture_kit.h"
 

@@ -1,6 +1,6 @@
 // libFuzzer entry: any bytes as a .glintrc.yaml. Whatever they are, each diagnostic stands in them, and the
 // policy that comes out judges without a crash.
-#include "app/settings/config.h"
+#include "load/settings/config.h"
 
 #include <stdint.h>
 #include <stdio.h>

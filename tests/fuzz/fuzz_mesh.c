@@ -1,14 +1,14 @@
 #include "fuzz_mesh.h"
 
-#include "app/around/around.h"
-#include "app/import/plan.h"
-#include "app/import/scene_text.h"
 #include "assets/mesh_coordinates.h"
 #include "diag/diag_text.h"
 #include "fuzz_sample.h"
 #include "grammar/ir.h"
 #include "grammar/mesh_format.h"
 #include "grammar/schema.h"
+#include "load/around/around.h"
+#include "load/import/plan.h"
+#include "load/import/scene_text.h"
 #include "scene/view.h"
 
 #include <stdio.h>

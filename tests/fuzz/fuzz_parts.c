@@ -1,10 +1,10 @@
 // libFuzzer entry: any bytes as a part of a picture and as a checkpoint, with the seals made right, else
 // every change would end at them. What is read is within what its head says, and what was read is written as
 // it was.
-#include "app/parts/bands.h"
-#include "app/parts/parts.h"
 #include "core/xxh64.h"
 #include "fuzz_file.h"
+#include "render/parts/bands.h"
+#include "render/parts/parts.h"
 
 #include <inttypes.h>
 #include <stdio.h>

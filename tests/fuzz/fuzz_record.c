@@ -1,7 +1,7 @@
 // libFuzzer entry: any bytes as a picture file whose record is looked for, and as the command and the line of
 // one. What is found lies in the bytes.
-#include "app/record/record.h"
-#include "app/record/words.h"
+#include "render/record/record.h"
+#include "render/record/words.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,9 +1,9 @@
 // libFuzzer entry: any bytes as a glint-test.yaml, as the bounds of `glint extremes` and as a baseline. Each
 // diagnostic stands in them.
-#include "app/scope/baseline.h"
-#include "app/settings/extreme_bounds.h"
-#include "app/settings/test_file.h"
 #include "fuzz_file.h"
+#include "load/scope/baseline.h"
+#include "load/settings/extreme_bounds.h"
+#include "load/settings/test_file.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -5,9 +5,9 @@
 //     run_invalid case FOLDER      compares
 //     run_invalid update FOLDER    writes expected.txt, to be read before it is committed
 //     run_invalid complete CORPUS  every code has a case for each kind of input where it can occur
-#include "app/check.h"
 #include "diag/diag_text.h"
 #include "files/output.h"
+#include "load/check.h"
 
 #include <ctype.h>
 #include <dirent.h>

@@ -1,7 +1,7 @@
 // run_silent FILE...: scenes of which `glint check` must say nothing but notes. good.yaml stands beside a
 // case that is wrong, and shows what is right; scenes that ship are right too.
-#include "app/check.h"
 #include "diag/diag_text.h"
+#include "load/check.h"
 
 #include <stdio.h>
 #include <stdlib.h>

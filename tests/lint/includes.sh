@@ -53,9 +53,9 @@ kernels=$(ours '^shaders/.*\.(glsl|comp)$')
         if (target ~ /^zlib/) return path ~ /^(shaders|tools|picture\/(read|write))\//
         if (target ~ /^(jpeglib|jerror)\.h/) return path ~ /^(picture|bench|tests\/unit\/picture|tests\/analytic)\//
         if (target ~ /^jansson/) return path ~ /^(grammar\/emit|lsp|tests)\//
-        if (target ~ /^minizip/) return path ~ /^app\/pack\/pack_zip/
+        if (target ~ /^minizip/) return path ~ /^edit\/pack\/pack_zip/
         if (target ~ /^cmocka/) return path ~ /^tests\//
-        if (target ~ /^GLFW\//) return path == "view/window.c"
+        if (target ~ /^GLFW\//) return path == "window/window.c"
         if (target ~ /^X11\//) return path ~ /^tests\/live\//
         if (target ~ /^xxhash/) return path ~ /^core\//
         if (target ~ /^pthread/) return path ~ /^(core|tests)\//

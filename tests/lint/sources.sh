@@ -13,8 +13,6 @@
         base=${path##*/}
         stem=${base%.c}
         found=no
-        # A room's library takes every C file of its folder.
-        case $path in *.c) grep -qsE '^ *glint_room\(|GLOB .*\*\.c' "$(dirname "$path")/CMakeLists.txt" && found=yes ;; esac
         folder=./$path
         while [ "$folder" != . ]; do
             folder=${folder%/*}
@@ -23,7 +21,8 @@
             grep -qE "(^|[^A-Za-z0-9_-])$base([^A-Za-z0-9_]|\$)" "$list" && found=yes
             # glint_unit_test(NAME ...) builds test_NAME.c
             case $stem in test_*) grep -qE "(^|[^A-Za-z0-9_-])${stem#test_}([^A-Za-z0-9_]|\$)" "$list" && found=yes ;; esac
-            grep -qE 'GLOB.*\*\.(c|\[ch\])' "$list" && found=yes
+            # A room's library takes every C file of its folder and of those inside.
+            grep -qE '^ *glint_room\(|GLOB.*\*\.(c|\[ch\])' "$list" && found=yes
         done
         [ $found = yes ] || echo "$path:1: no CMakeLists.txt builds it"
     done

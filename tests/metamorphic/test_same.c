@@ -3,7 +3,7 @@
 //
 // Usage: test_same REPEATS [storage] SCENE... With `storage` the device traces as GPUs do; only instances are
 // then compared with copies.
-#include "app/precision.h"
+#include "load/session_precision.h"
 #include "tests/pictures/picture_kit.h"
 
 #include <stdio.h>

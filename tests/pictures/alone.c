@@ -4,11 +4,11 @@
 //
 // Usage: alone SCENE OUT.pfm|OUT.png [FOLDER_WITH_MESHES]: by the reference, which obeys the file, at the
 // scene's size. Ends with 1 where that fails, and with 2 for other arguments.
-#include "app/exact.h"
 #include "core/strbuf.h"
 #include "files/output.h"
 #include "grammar/ir.h"
 #include "reference/parts.h"
+#include "render/by_reference.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 #include "picture_kit.h"
 
-#include "app/exact.h"
 #include "diag/diag_text.h"
 #include "grammar/ir.h"
+#include "render/by_reference.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef GLINT_TESTS_PICTURE_KIT_H
 #define GLINT_TESTS_PICTURE_KIT_H
 
-#include "app/shot.h"
+#include "render/shot.h"
 
 // What a test changes against what the scene asks for.
 struct picture_options {

@@ -5,10 +5,10 @@
 //        language has, made by the seeds from 0
 #include "tests/pictures/picture_kit.h"
 
-#include "app/exact.h"
 #include "files/output.h"
 #include "grammar/ir.h"
 #include "grammar/print/ir_print.h"
+#include "render/by_reference.h"
 #include "tests/generate/generate.h"
 
 #include <stdio.h>

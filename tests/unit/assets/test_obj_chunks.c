@@ -1,7 +1,7 @@
 // OBJ files read in chunks: the same as in order, to the bit, wherever the chunks' borders are; what is not
 // ordinary is left to the other reader, without a word.
 #include "assets/mesh_build.h"
-#include "assets/obj_chunk.h"
+#include "assets/obj/obj_chunk.h"
 
 #include <glob.h>
 #include <setjmp.h>

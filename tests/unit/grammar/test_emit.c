@@ -1,10 +1,10 @@
 // The files made from the table are those that are committed, well formed, and hold every name; so does
 // what `glint explain` says.
-#include "app/settings/key_schema.h"
 #include "diag/diag.h"
 #include "grammar/emit/emit.h"
 #include "grammar/emit/explain.h"
 #include "grammar/schema.h"
+#include "load/settings/key_schema.h"
 #include "tests/generate/dictionary.h"
 
 #include <jansson.h>

@@ -1,8 +1,8 @@
 // Random scenes, and the verdict on what auto chose for a scene.
-#include "app/session.h"
 #include "core/limits.h"
 #include "device_kit.h"
 #include "grammar/ir.h"
+#include "load/session.h"
 #include "tests/sweep/sweep.h"
 
 #include <stdio.h>

@@ -1,0 +1,78 @@
+// A baseline: the findings of a check that are known, so that only new ones are reported.
+//
+// A finding is known again by its file, its code, the words of its message and the text of its line: numbers
+// in the message do not count, nor does the number of the line, so that what is written above it does not
+// make it new. Of findings that are equal in all of these the baseline holds how many there are in one scene.
+// It holds errors and warnings in files, but not those of settings and options, nor that memory ran out, that
+// a file cannot be read, or that an include is missing or refused.
+//
+// The file is text, sorted, one entry a line: path (relative to the baseline's folder), code, number,
+// message, line and, if the finding is not in the scene itself, the scene that reads the file; separated by
+// tabs. What would be a tab or a line end, or is not text, is a backslash sequence.
+//
+// Errors: in the sink. Ownership: what is read is in the given arena, which must live as long as the sources;
+// baseline_found_finish frees what was found. Thread safety: a baseline that was read may be used by many
+// threads at a time; a list of what was found belongs to one.
+#ifndef GLINT_LOAD_SCOPE_BASELINE_H
+#define GLINT_LOAD_SCOPE_BASELINE_H
+
+#include "core/str_map.h"
+#include "core/strbuf.h"
+#include "load/session.h"
+
+#include <stdatomic.h>
+
+struct baseline_entry {
+    str key; // path, code, message and line as in the file
+    str via; // the scene that reads the path
+    uint32_t count;
+    uint32_t line; // in the baseline
+};
+
+struct baseline {
+    struct arena *arena;
+    const char *path;
+    str folder; // absolute
+    struct {
+        struct baseline_entry *items;
+        uint32_t count, capacity;
+    } entries;
+    struct str_map keys;    // 1 + index of the entry
+    struct str_map scenes;  // each `via`: 1 + index in `checked`
+    _Atomic uint32_t *used; // by entry: how many of it a scene had
+    _Atomic bool *checked;  // scenes whose findings are all known
+};
+
+// What was found, to be written.
+struct baseline_found {
+    struct arena arena;
+    str folder; // of the baseline that will be written; absolute
+    struct {
+        struct baseline_entry *items;
+        uint32_t count, capacity;
+    } entries;
+    struct str_map keys;
+    uint32_t dropped; // findings that the sink did not keep
+};
+
+// The folder of a baseline, absolute, in the arena.
+str baseline_folder(struct arena *arena, const char *path);
+// false: it cannot be read, or is not one; the sink says why.
+bool baseline_read(struct baseline *baseline, const char *path, struct arena *arena,
+                   struct source_set *sources, struct diag_sink *sink);
+// How many of its entries no longer occur in the scenes that were checked, and their lines, as a sentence
+// with a line end; nothing if there are none. Scenes with errors do not count: the rules may not have run.
+void baseline_put_stale(const struct baseline *baseline, struct strbuf *out);
+
+void baseline_found_init(struct baseline_found *found, str folder);
+void baseline_found_finish(struct baseline_found *found);
+// The text of the baseline of what was found in all scenes; returns how many findings that are. `arena`: for
+// work.
+uint32_t baseline_put(const struct baseline_found *const *found, uint32_t count, struct arena *arena,
+                      struct strbuf *out);
+
+// Takes from a session's findings (check_scene) those that `known` holds, or all that a baseline can hold, to
+// `found`, if that is not NULL. Returns how many. The counts and what is left in the sink follow.
+uint32_t baseline_take(struct session *session, const struct baseline *known, struct baseline_found *found);
+
+#endif

@@ -1,0 +1,414 @@
+// From path and options to a loaded session: the stages one after the other.
+#include "core/clock.h"
+#include "core/strbuf.h"
+#include "core/timeline.h"
+#include "grammar/ir.h"
+#include "grammar/ir_print_text.h"
+#include "grammar/mesh_format.h"
+#include "load/around/around.h"
+#include "load/check_allow.h"
+#include "load/import/scene_text.h"
+#include "load/what_file.h"
+#include "parser/parser.h"
+#include "parser/tree/reader.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum diag_code session_file_code(enum file_status status) {
+    switch (status) {
+    case FILE_MISSING:
+        return DIAG_FILE_MISSING;
+    case FILE_OUTSIDE:
+        return DIAG_FILE_OUTSIDE;
+    case FILE_NOT_REGULAR:
+        return DIAG_FILE_NOT_REGULAR;
+    case FILE_TOO_LARGE:
+        return DIAG_LIMIT;
+    case FILE_NO_MEMORY:
+        return DIAG_OUT_OF_MEMORY;
+    default:
+        return DIAG_FILE_UNREADABLE;
+    }
+}
+
+static enum session_state unreadable(struct session *session, str path, enum file_status status) {
+    uint32_t source = source_add(&session->sources, SOURCE_KIND_FILE, path, STR(""));
+    diag_add(&session->sink, session_file_code(status), (span){source, 0, 0}, "the scene file %s",
+             file_status_text(&session->files, status));
+    if (status == FILE_TOO_LARGE)
+        diag_help(&session->sink, "raise the limit with --limit %s=BYTES",
+                  limit_info(LIMIT_SCENE_BYTES)->name);
+    if (status == FILE_OUTSIDE && !session->options.names_scene)
+        diag_help(&session->sink, "it is a link; to read what it leads to, name the file itself");
+    return SESSION_UNREADABLE;
+}
+
+// Its contents would only give mistakes of a language that it is not written in.
+static bool is_another_kind(struct session *session, str path, str text) {
+    struct what_file what;
+    if (!what_file(path, text, &session->arena, &what))
+        return false;
+    uint32_t source = source_add(&session->sources, SOURCE_KIND_FILE, path, STR(""));
+    diag_add(&session->sink, DIAG_FILE_KIND, (span){source, 0, 0}, "this is %.*s, not a scene",
+             STR_ARG(what.what));
+    diag_help(&session->sink, "%.*s", STR_ARG(what.advice));
+    return true;
+}
+
+static str finished_text(struct session *session, struct strbuf *text) {
+    str copy = arena_copy(&session->arena, strbuf_view(text));
+    strbuf_finish(text);
+    return copy;
+}
+
+// A mesh becomes a scene around it, which nobody wrote.
+static str scene_around_mesh(struct session *session, struct asset_store *store, str path) {
+    const struct assets_input input = session_assets_input(session);
+    struct strbuf text;
+    str name = path_base(path), around = STR("");
+    const struct import_source source = {&input, store, &session->assets, session->options.width,
+                                         session->options.height};
+    strbuf_init(&text);
+    const bool may_read = store && !session->options.text_only;
+    const bool is_scene =
+        may_read && mesh_format_of_path(path) == MESH_FORMAT_GLTF && import_scene_text(&source, path, &text);
+    if (!is_scene && may_read)
+        around = around_text(store, &input, path, session->options.width, session->options.height,
+                             &session->assets);
+    assets_finish(&session->assets);
+    if (is_scene)
+        return finished_text(session, &text);
+    if (around.len)
+        return around;
+    strbuf_cstr(&text, "glint: 1\nmodels:\n  - mesh: ");
+    if (utf8_first_error(name) == name.len)
+        print_yaml_text(&text, name, false);
+    else
+        strbuf_str(&text, name); // the reader says what is wrong with it
+    strbuf_char(&text, '\n');
+    return finished_text(session, &text);
+}
+
+static struct config_input config_input(struct session *session) {
+    return (struct config_input){.files = &session->files,
+                                 .sources = &session->sources,
+                                 .sink = &session->sink,
+                                 .arena = &session->arena,
+                                 .runner = &session->options.limits};
+}
+
+static void load_config(struct session *session) {
+    struct config_input input = config_input(session);
+    config_load(&input, session->options.path, &session->config);
+    session->config_failed = session->sink.errors > 0;
+    limits_fill(&session->options.limits, &session->config.limits);
+    diag_sink_keep(&session->sink, (uint32_t)session->options.limits.value[LIMIT_MESSAGES]);
+    session->arena.cap_bytes = limits_size(&session->options.limits, LIMIT_SCENE_MEMORY);
+    session->policy = session->config.policy;
+    if (session->options.policy)
+        diag_policy_overlay(&session->policy, &session->arena, session->options.policy);
+}
+
+// Nothing beside a scene that may not be read is looked at: no settings, no folder.
+static enum file_status judge_place(struct session *session) {
+    return session->options.names_scene
+               ? files_confine(&session->files, session->options.path, session->options.named_in)
+               : FILE_OK;
+}
+
+static enum file_status read_scene(struct session *session, str *text) {
+    const struct session_options *o = &session->options;
+    const uint64_t most = o->limits.value[LIMIT_SCENE_BYTES];
+    struct files alone;
+    if (!o->names_scene)
+        return o->found_in.len
+                   ? files_read_found(&session->files, o->path, o->found_in, most, &session->arena, text)
+                   : files_read_given(&session->files, o->path, most, &session->arena, text);
+    files_init(&alone, &session->arena); // its own root is not asked
+    alone.overlays = session->files.overlays;
+    const enum file_status status =
+        files_read_found(&alone, o->path, o->named_in, most, &session->arena, text);
+    session->files.system_error = alone.system_error;
+    if (status == FILE_OK)
+        files_identify(&session->files, o->path, &(struct file_read){0}); // it is a file that was read
+    return status;
+}
+
+// false: it was reported.
+static bool add_asset_path(struct session *session, uint32_t at) {
+    const struct session_options *o = &session->options;
+    const str folder = o->asset_paths[at];
+    str within = STR(""), rest;
+    if (at >= o->asset_path_count - o->named_asset_path_count)
+        within = files_canonical(&session->files, o->named_in);
+    const uint32_t before = session->files.roots.count;
+    const enum file_status status = files_add_root(&session->files, folder);
+    const bool is_new = session->files.roots.count > before;
+    if (status == FILE_OK &&
+        (!within.len || !is_new || path_is_below(session->files.roots.items[before], within, &rest)))
+        return true;
+    if (within.len) {
+        session->files.roots.count = before;
+        diag_add(&session->sink, DIAG_FILE_OUTSIDE, SPAN_NONE,
+                 "the folder that --asset-path names is not a folder below the one that may be read");
+    } else {
+        diag_add(&session->sink, DIAG_USAGE, SPAN_NONE, "--asset-path %.*s is not a folder", STR_ARG(folder));
+    }
+    return false;
+}
+
+static enum session_state open_source(struct session *session, struct asset_store *store, uint32_t *source) {
+    str path = session->options.path;
+    str text = STR("");
+    enum file_status status = judge_place(session);
+    if (status != FILE_OK)
+        return unreadable(session, path, status);
+    load_config(session);
+    if (session->options.judged &&
+        diag_policy_ignores(&session->policy, files_canonical(&session->files, path)))
+        return SESSION_IGNORED;
+    status = files_add_scene_root(&session->files, path);
+    if (status != FILE_OK)
+        return unreadable(session, path, status);
+    for (uint32_t i = 0; i < session->options.asset_path_count; i++) {
+        if (!add_asset_path(session, i))
+            return SESSION_UNREADABLE;
+    }
+    for (uint32_t i = 0; i < session->config.asset_paths.count; i++)
+        files_add_root(&session->files, session->config.asset_paths.items[i]);
+    status = session->options.found_in.len ? files_confine(&session->files, path, session->options.found_in)
+                                           : FILE_OK;
+    if (status != FILE_OK)
+        return unreadable(session, path, status);
+    if (assets_is_mesh_path(path)) {
+        struct file_read identity;
+        status = files_identify(&session->files, path, &identity);
+        if (status != FILE_OK)
+            return unreadable(session, path, status);
+        text = scene_around_mesh(session, store, path);
+        *source = source_add(&session->sources, SOURCE_KIND_GENERATED, path, text);
+        return SESSION_LOADED;
+    }
+    status = read_scene(session, &text);
+    if (status != FILE_OK)
+        return unreadable(session, path, status);
+    if (is_another_kind(session, path, text))
+        return SESSION_UNREADABLE;
+    *source = source_add(&session->sources, SOURCE_KIND_FILE, path, text);
+    return SESSION_LOADED;
+}
+
+static void load_assets(struct session *session, struct asset_store *store) {
+    double start = clock_seconds();
+    struct assets_input input = session_assets_input(session);
+    assets_load(store, &input, session->options.pixels, &session->assets);
+    scene_build(session->scene, &session->assets, &session->arena, &session->resolved);
+    scene_check_reach(&session->resolved, &session->sink);
+    scene_check_triangles(&session->resolved, &session->options.limits, &session->sink);
+    session->assets_seconds = clock_seconds() - start;
+}
+
+// What needs the pixels, too.
+static void finish_load(void *context) {
+    struct session *session = context;
+    const double start = clock_seconds();
+    assets_settle(&session->assets);
+    session->assets_seconds += clock_seconds() - start;
+    session_lint(session);
+}
+
+void session_no_memory(struct session *session, const char *what) {
+    diag_add(&session->sink, DIAG_OUT_OF_MEMORY, ir_place_label(&session->origin, &session->scene->head),
+             "not enough memory for %s", what);
+}
+
+void session_report_pixels(struct session *session) {
+    const struct ir_image *scene = &session->scene->image, *image = session->image;
+    const bool is_written = image->width == scene->width && image->height == scene->height;
+    diag_add(&session->sink, DIAG_TOO_MANY_PIXELS,
+             is_written ? ir_place_label(&session->origin, &scene->head) : SPAN_NONE,
+             "the picture has %d x %d, that is %lld pixels; at most %d can be held at once", image->width,
+             image->height, (long long)image->width * image->height, SESSION_PIXELS_MOST);
+    diag_help(&session->sink,
+              image->error > 0 ? "give all pixels the same samples, without 'error', or choose a smaller size"
+                               : "choose a smaller size; 'glint render' writes large pictures in bands");
+}
+
+// Pictures are rendered in bands unless all pixels are needed at once: by who loads the scene, or by pixels
+// that end by their error, which is stated of all of them.
+static void check_pixels(struct session *session) {
+    const struct ir_image *scene = &session->scene->image, *image = session->image;
+    const int64_t pixels = (int64_t)image->width * image->height;
+    const bool is_told = scene->error > 0 && (int64_t)scene->width * scene->height > SESSION_PIXELS_MOST;
+    if (pixels > SESSION_PIXELS_MOST && !is_told && (session->options.whole_picture || image->error > 0))
+        session_report_pixels(session);
+}
+
+static void take_image_options(struct session *session) {
+    struct ir_image *image = ARENA_NEW(&session->arena, struct ir_image);
+    *image = session->scene->image;
+    if (session->options.width)
+        image->width = session->options.width;
+    if (session->options.height)
+        image->height = session->options.height;
+    if (session->options.samples)
+        image->samples = session->options.samples;
+    if (session->options.error > 0 && !session->options.samples && image->samples <= image->min_samples)
+        image->samples = SESSION_SAMPLES_MOST;
+    if (session->options.error != 0)
+        image->error = fmax(session->options.error, 0);
+    // With fewer samples no pixel could end before the others.
+    if (image->samples <= image->min_samples)
+        image->error = 0;
+    session->unused_error = image->error > 0 ? 0 : session->scene->image.error;
+    session->image = image;
+    check_pixels(session);
+}
+
+// What is loaded from the path.
+enum extent {
+    EXTENT_SCENE,
+    EXTENT_FILE,     // without includes and assets
+    EXTENT_SETTINGS, // it is a configuration
+    EXTENT_NAME,     // only that its name is not that of a scene
+};
+
+static void report_name(struct session *session, uint32_t source) {
+    const str base = path_base(session->options.path);
+    size_t dot = base.len;
+    while (dot > 0 && base.ptr[dot - 1] != '.')
+        dot--;
+    diag_add(&session->sink, DIAG_SCENE_NAME, (span){source, 0, 0},
+             "this begins as a scene does, and was left out, because its name is not that of a scene");
+    diag_help(&session->sink, "rename it to '%.*sglint.%s', or name it on the command line", (int)dot,
+              base.ptr,
+              reader_is_xml(session->options.path, session->sources.items[source].text) ? "xml" : "yaml");
+}
+
+static enum session_state load_stages(struct session *session, struct asset_store *store,
+                                      enum extent extent) {
+    bool alone = extent == EXTENT_FILE;
+    uint32_t source = 0;
+    double start = clock_seconds();
+    if (extent == EXTENT_SETTINGS) {
+        struct config_input settings = config_input(session);
+        config_read_file(&settings, session->options.path, session->options.path, &session->config);
+        return SESSION_NO_SCENE;
+    }
+    enum session_state state = open_source(session, store, &source);
+    timeline_add(session->options.timeline, "read", session->options.path, start);
+    if (state != SESSION_LOADED)
+        return state;
+    if (extent == EXTENT_NAME) {
+        report_name(session, source);
+        return SESSION_NO_SCENE;
+    }
+    struct parser_input input = {.sources = &session->sources,
+                                 .files = &session->files,
+                                 .sink = &session->sink,
+                                 .limits = &session->options.limits,
+                                 .arena = &session->arena,
+                                 .sets = session->options.sets,
+                                 .set_count = session->options.set_count,
+                                 .timeline = session->options.timeline};
+    struct parser_output output = {0};
+    bool found = alone ? parser_load_file(&input, source, &output) : parser_load(&input, source, &output);
+    session->read_seconds = clock_seconds() - start;
+    if (!found)
+        return SESSION_NO_SCENE;
+    session->scene = output.scene;
+    session->origin = output.origin;
+    session->unread = output.unread;
+    take_image_options(session);
+    if (!alone && !session->options.text_only) {
+        if (session->options.on_text && session->sink.errors == 0)
+            session->options.on_text(session->options.on_text_context);
+        load_assets(session, store);
+        session->unsettled = session->assets.pixels_later && session->sink.errors == 0;
+        if (!session->unsettled)
+            finish_load(session);
+    }
+    return SESSION_LOADED;
+}
+
+struct loading {
+    struct session *session;
+    struct asset_store *store;
+    enum extent extent;
+};
+
+static void load(void *context) {
+    const struct loading *l = context;
+    struct session *session = l->session;
+    const struct session_options *options = &session->options;
+    source_set_init(&session->sources, &session->arena);
+    files_init(&session->files, &session->arena);
+    for (uint32_t i = 0; i < options->overlay_count; i++)
+        files_add_overlay(&session->files, options->overlays[i].path, options->overlays[i].text);
+    session->state = load_stages(session, l->store, l->extent);
+}
+
+// Runs work that allocates from the session's arena.
+static void run_guarded(struct session *session, arena_work *work, void *context) {
+    const enum arena_fault fault = arena_guarded(&session->arena, work, context);
+    if (!fault)
+        return;
+    diag_add(&session->sink, fault == ARENA_FAULT_CAP ? DIAG_LIMIT : DIAG_OUT_OF_MEMORY, SPAN_NONE,
+             "the scene needs more memory than %s", fault == ARENA_FAULT_CAP ? "the limit" : "is available");
+    diag_help(&session->sink, "raise the limit with --limit %s=BYTES", limit_info(LIMIT_SCENE_MEMORY)->name);
+    session->unsettled = false;
+    session->state = SESSION_NO_SCENE;
+}
+
+static void put_in_order(struct session *session) {
+    if (session->options.judged || session->unsettled)
+        return;
+    check_silence(session);
+    diag_sort(&session->sink);
+}
+
+static enum session_state guarded_load(struct session *session, const struct session_options *options,
+                                       struct asset_store *store, enum extent extent) {
+    struct loading loading = {session, store, extent};
+    *session = (struct session){.options = *options};
+    diag_sink_init(&session->sink);
+    arena_init(&session->arena, limits_size(&options->limits, LIMIT_SCENE_MEMORY));
+    run_guarded(session, load, &loading);
+    put_in_order(session);
+    return session->state;
+}
+
+void session_settle(struct session *session) {
+    if (!session->unsettled)
+        return;
+    session->unsettled = false;
+    run_guarded(session, finish_load, session);
+    put_in_order(session);
+}
+
+enum session_state session_load(struct session *session, const struct session_options *options,
+                                struct asset_store *store) {
+    return guarded_load(session, options, store, options->unnamed ? EXTENT_NAME : EXTENT_SCENE);
+}
+
+enum session_state session_load_text(struct session *session, const struct session_options *options) {
+    // The text around a mesh depends on it.
+    struct asset_store *store = assets_is_mesh_path(options->path) ? asset_store_create() : NULL;
+    const enum session_state state = guarded_load(session, options, store, EXTENT_FILE);
+    assets_finish(&session->assets);
+    asset_store_destroy(store);
+    return state;
+}
+
+enum session_state session_load_settings(struct session *session, const struct session_options *options) {
+    return guarded_load(session, options, NULL, EXTENT_SETTINGS);
+}
+
+void session_finish(struct session *session) {
+    if (!session)
+        return;
+    assets_finish(&session->assets);
+    diag_sink_finish(&session->sink);
+    arena_finish(&session->arena);
+}

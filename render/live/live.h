@@ -1,0 +1,94 @@
+// A scene that is shown while it is written: session, flat scene and renderer that follow the files.
+//
+// live_load reads everything again, and does again only what has to be done: no mesh is read whose file is
+// the same, no tree is built over the same boxes, nothing is written to the device that lies there, no kernel
+// is compiled that is there. A scene with errors changes nothing: the one before stays, to be shown.
+// Two things are decided when the geometry is loaded and stay while it is edited: the place that coordinates
+// are relative to, and the precision that `auto` chooses. So a picture may differ from that of a
+// program that has just started in how it was rounded, after the first camera moved.
+//
+// Input: options as for a session; a device. Errors: enum live_state. Ownership: live_finish frees all but
+// the device, and accepts a live that live_begin refused. Thread safety: the gpu's thread.
+#ifndef GLINT_RENDER_LIVE_LIVE_H
+#define GLINT_RENDER_LIVE_LIVE_H
+
+#include "files/watch.h"
+#include "measure/precision.h"
+#include "render/shot.h"
+#include "tracer/bvh/keep.h"
+
+struct live_wish {
+    struct session_options session; // what it points to outlives the live
+    str camera;                     // as session_camera has it
+    bool polls;                     // files are looked at from time to time, without inotify
+    // Of many pictures, each has the bytes that a program that has just started would give it: the origin is
+    // chosen for each, and the precision, unless live->follows. No file is watched.
+    bool alone;
+    // Called by live_load when all files are read, before anything is made of them. NULL: nothing.
+    void (*is_read)(void *context);
+    void *context;
+};
+
+enum live_state {
+    LIVE_SHOWN,  // the shot is that of the files
+    LIVE_BROKEN, // live->broken has findings; the shot, if there is one, is that of the last good scene
+    LIVE_FAILED, // the device: see gpu_error. There is no shot any more
+};
+
+// What a load did. Times in seconds.
+struct live_change {
+    uint32_t meshes_read, images_read;
+    uint32_t trees_built, trees_kept;
+    uint32_t pipelines_made;
+    uint32_t precision_asked;     // 1: `auto` made a trial
+    struct render_update written; // to the device
+    bool is_whole; // all was made anew: the first time, and where the precision was chosen again
+    double read_seconds, assets_seconds, flatten_seconds, upload_seconds;
+    double seconds; // of all
+};
+
+struct live {
+    struct live_wish wish;
+    struct gpu *gpu;
+    struct asset_store *store;
+    struct bvh_keep *keep;
+    struct watch *watch;
+    struct session *session; // of the shot; NULL: there is none yet
+    struct session *broken;  // the last one loaded, if it has errors
+    struct shot shot;
+    uint32_t camera; // that the wish names, in the session
+    vec3 origin;     // that coordinates are relative to
+    // The next session shows what the shot's does, a moment later: what `auto` found holds where the answer
+    // was clear and what is measured stays like it was (live_precision.c).
+    bool follows;
+    bool is_asked; // `choice` is what the last trial found, for `kept` sessions since
+    uint32_t kept;
+    struct precision_choice choice;
+    struct live_change change; // of the last load
+    uint32_t loads;
+};
+
+// A session that was read for a live scene, and what reading it took.
+struct live_loaded {
+    struct session *session; // NULL: no memory
+    uint32_t meshes_read, images_read;
+};
+
+// false: no memory.
+bool live_begin(struct live *live, const struct live_wish *wish, struct gpu *gpu);
+void live_finish(struct live *live);
+// Reads all again. Whatever the result, what it read is watched from now on.
+enum live_state live_load(struct live *live);
+// The two halves of live_load, for a scene and settings that change. live_read may run beside a frame of the
+// shot, on another thread, one at a time; its result is for live_show, or for live_drop.
+struct live_loaded live_read(struct live *live, const struct session_options *options);
+enum live_state live_show(struct live *live, struct live_loaded loaded, str camera);
+void live_drop(struct live_loaded loaded);
+// Another camera of the session that is shown; where there is none of this name, the shot stays.
+enum live_state live_turn(struct live *live, str camera);
+// After the first picture: compiles what further ones would wait for. false: see gpu_error.
+bool live_warm(struct live *live);
+// The findings of the last load: of the broken session, else of the good one.
+struct session *live_findings(struct live *live);
+
+#endif

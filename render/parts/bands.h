@@ -1,0 +1,65 @@
+// A picture that is being rendered, as a file of bands: what is finished lies there, and another process can
+// go on.
+//
+// The file begins with lines of text, as a part does (part_file.h), but `glint checkpoint 1`, and then
+//
+//     bands 128                 rows of each, but the last, which may have fewer
+//     seal 3f0c...              XXH64 of the lines before
+//
+// filled up with line ends to BANDS_HEAD_BYTES. Bands follow at places that do not depend on each other: rows
+// of three floats a pixel, as this machine has them, what was wrong in them, and an XXH64 of both. A band
+// whose seal is wrong is not there. So whatever ends the process, each band is there or not; and two
+// processes that render the same picture by mistake write the same bytes to the same places.
+//
+// Errors: false, with a sentence about it that begins with a verb; empty: there is no memory. Ownership:
+// bands_finish closes and frees; the file stays until bands_remove. Thread safety: one thread.
+#ifndef GLINT_RENDER_PARTS_BANDS_H
+#define GLINT_RENDER_PARTS_BANDS_H
+
+#include "files/spool.h"
+#include "render/parts/part_file.h"
+
+#define BANDS_ENDING ".checkpoint"
+
+enum {
+    BANDS_HEAD_BYTES = 8192,
+    BANDS_FAULTS = 2,
+    BANDS_FAULT_WORDS = 7,
+};
+
+// What was wrong in a band, for who made it; zeros: nothing.
+struct bands_faults {
+    uint32_t words[BANDS_FAULTS][BANDS_FAULT_WORDS];
+};
+
+struct bands {
+    struct part part;     // of which picture; its region is all that the file gets
+    uint32_t rows, count; // of a band, but the last; how many there are
+    bool *done;           // by band
+    uint32_t done_count;
+    bool is_judged; // each band was looked at
+    struct spool spool;
+    struct bands_faults *faults; // by band
+};
+
+// A new file, with no band. `rows` is more than 0.
+bool bands_create(struct bands *bands, const char *path, const struct part *part, uint32_t rows,
+                  struct strbuf *error);
+// A file that is there, with the bands that it has, each of which is read to see whether it is whole; calls
+// `goes_on`, unless NULL, between them, and leaves the rest unjudged where that is false. *missing: there is
+// no such file, and nothing is wrong.
+bool bands_open(struct bands *bands, const char *path, bool (*goes_on)(void *context), void *context,
+                bool *missing, struct strbuf *error);
+// What keeps the file from being that of a picture, as words before "this one"; NULL: nothing does.
+const char *bands_difference(const struct bands *bands, const struct part *part);
+// Rows of a band, counted from the first one of the region.
+uint32_t bands_begin(const struct bands *bands, uint32_t band);
+uint32_t bands_rows(const struct bands *bands, uint32_t band);
+// Writes a band. false: bands->spool.error says why.
+bool bands_put(struct bands *bands, uint32_t band, const float *rgb, const struct bands_faults *faults);
+// Reads rows of the region; those that are not there are black. false: as above.
+bool bands_take(struct bands *bands, uint32_t y, uint32_t count, float *rgb);
+void bands_finish(struct bands *bands);
+void bands_remove(struct bands *bands);
+
+#endif
