@@ -73,7 +73,7 @@ static int no_vulkan(struct cli *cli, const char *place, const char *error) {
     return CLI_DEVICE;
 }
 
-int cmd_devices(struct cli *cli) {
+int cli_list_devices(struct cli *cli) {
     struct gpu_device_info *items = ARENA_ARRAY(&cli->arena, struct gpu_device_info, DEVICES_MAX);
     char error[GPU_ERROR_BYTES] = "";
     uint32_t count = 0;

@@ -9,6 +9,8 @@
 
 struct timeline;
 
+// Prints those there are, a line each, as --device names them: glint devices.
+int cli_list_devices(struct cli *cli);
 // NULL: none in particular.
 const char *cli_device_wanted(const struct cli *cli);
 // Whether that is the reference.

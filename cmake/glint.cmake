@@ -155,7 +155,6 @@ function(glint_room)
   list(TRANSFORM sources PREPEND ${CMAKE_SOURCE_DIR}/)
   set(libs ${MAY_${room}})
   list(FILTER libs EXCLUDE REGEX "\\.h$")
-  list(REMOVE_ITEM libs cli) # the program, which is linked with its rooms
   list(TRANSFORM libs REPLACE "/" "_")
   list(TRANSFORM libs PREPEND "glint_")
   if(NOT sources AND NOT R_SOURCES)

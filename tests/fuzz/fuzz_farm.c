@@ -1,6 +1,6 @@
 // libFuzzer entry: any bytes as the plan of a farm, with its first line made right. What is read can be
 // worked through: frames and tasks that can be counted.
-#include "cli/farm/farm.h"
+#include "cli/commands/farm/farm.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,0 +1,347 @@
+// A picture in bands: each is on the disk when the next one begins, so that a process needs memory for one,
+// and another can go on.
+#include "cli/commands/bands/band_devices.h"
+#include "cli/device.h"
+#include "core/clock.h"
+#include "core/timeline.h"
+#include "grammar/ir.h"
+#include "picture/write/rows.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum {
+    TILE_ROWS = 8,
+    BAND_PIXELS = 4 << 20,   // of a band at most: 48 MiB
+    PATHS_OF_CPU = 2 << 20,  // in a band: about a second of a few processors
+    PATHS_OF_GPU = 32 << 20, // enough to keep it busy
+    WHOLE_PIXELS = 8 << 20,  // more are in bands where nothing needs all at once: whole, each takes 18 bytes
+};
+
+// ---- whether
+
+static bool are_asked_for(const struct render_job *job) {
+    const struct cli_part *part = &job->cli->options.part;
+    return part->bands_arg || part->resume_arg || part->partial_arg || part->spreads;
+}
+
+static int place_of(const struct render_job *job) {
+    const struct cli_part *part = &job->cli->options.part;
+    return part->resume_arg    ? part->resume_arg
+           : part->bands_arg   ? part->bands_arg
+           : part->partial_arg ? part->partial_arg
+                               : cli_operand_place(job->cli, 0);
+}
+
+static bool is_file(const struct cli_output *output) {
+    return strcmp(output->path, "-") != 0 && strncmp(output->path, "/dev/", 5) != 0;
+}
+
+// The output that the checkpoint lies beside; NULL: there is none.
+static const struct cli_output *first_file(const struct render_job *job) {
+    for (uint32_t i = 0; i < job->output_count; i++)
+        if (is_file(&job->outputs[i]))
+            return &job->outputs[i];
+    return NULL;
+}
+
+// What needs all pixels at once; NULL: nothing of it is asked for.
+static const char *obstacle(const struct render_job *job) {
+    const struct cli_options *o = &job->cli->options;
+    if (cli_device_is_reference(job->cli))
+        return "the reference renders whole pictures: choose a device";
+    if (o->audit || o->has_max_off)
+        return "an audit is about a whole picture: leave '--audit' and '--max-off' out";
+    if (o->measure.time_s > 0)
+        return "a time ends whole pictures: leave '--time' out; '--resume' goes on later";
+    if (cli_option_place(job->cli, "max-error") || cli_option_place(job->cli, "max-time"))
+        return "settings are chosen by whole pictures: choose them first, and write them into the scene";
+    if (o->measure.noise > 0)
+        return "pixels that end by their error state an error of the whole picture: leave '--noise' out";
+    if (o->aovs)
+        return "'--aov' is about a whole picture: leave it out";
+    if (o->watch)
+        return "'--watch' renders whole pictures: leave it out";
+    if (o->repeat)
+        return "'--repeat' times whole pictures: leave it out";
+    if (o->part.samples_arg)
+        return "some of the samples are rendered at once: take a smaller --region or --tile instead";
+    if (!first_file(job))
+        return "the checkpoint lies beside the picture's file: name one with -o";
+    return NULL;
+}
+
+int render_judge_bands(struct render_job *job) {
+    job->cli->options.part.spreads = bands_spread(job->cli);
+    const char *why = are_asked_for(job) ? obstacle(job) : NULL;
+    return why ? cli_usage(job->cli, place_of(job), "this is not possible in bands: %s", why) : CLI_OK;
+}
+
+// The first output whose format is made of all pixels at once; NULL: none.
+static const struct cli_output *whole_output(const struct render_job *job) {
+    for (uint32_t i = 0; i < job->output_count; i++)
+        if (!job->outputs[i].is_part && !image_rows_can(job->outputs[i].format))
+            return &job->outputs[i];
+    return NULL;
+}
+
+// A picture that could be held as a whole, and need not be. What --stats counts is of whole pictures.
+static bool saves_memory(const struct render_job *job) {
+    const struct part_region *region = &job->part.region;
+    return (uint64_t)region->width * region->height > WHOLE_PIXELS && !obstacle(job) && !whole_output(job) &&
+           !job->cli->options.stats && !(job->session.image->error > 0);
+}
+
+// A picture that is too large to be held needs formats that can be written in rows.
+static int judge_formats(struct render_job *job) {
+    const struct cli_output *output = whole_output(job);
+    if (!output)
+        return CLI_OK;
+    const int status = cli_usage(job->cli, output->arg ? output->arg : place_of(job),
+                                 "'%s' is of a format whose file is made of all pixels at once, and this "
+                                 "picture has more than 64 megapixels",
+                                 output->path);
+    diag_help(&job->cli->sink, "write .png, .exr, .pfm or .hdr, and convert that");
+    return status;
+}
+
+int render_plan_bands(struct render_job *job) {
+    const struct part_region *region = &job->part.region;
+    const bool is_large = (uint64_t)region->width * region->height > SESSION_PIXELS_MOST;
+    job->in_bands = is_large || are_asked_for(job) || saves_memory(job);
+    if (!job->in_bands)
+        return CLI_OK;
+    const char *why = obstacle(job);
+    if (why)
+        return cli_usage(job->cli, place_of(job),
+                         "this picture has more than 64 megapixels, and is rendered in bands: %s", why);
+    if (job->session.image->error > 0) {
+        const int status = cli_usage(job->cli, place_of(job),
+                                     "pixels that end by their error are not rendered in bands: the picture "
+                                     "states an error of all its pixels");
+        diag_help(&job->cli->sink, "give all pixels the same samples: --set image.error=0");
+        return status;
+    }
+    job->image = (struct image){.width = region->width, .height = region->height};
+    return is_large ? judge_formats(job) : CLI_OK;
+}
+
+// ---- how large
+
+static uint32_t rows_of(const struct render_job *job) {
+    const struct part *part = &job->part;
+    const bool is_cpu = gpu_info(job->gpu)->kind == GPU_CPU;
+    const uint64_t paths = is_cpu ? PATHS_OF_CPU : PATHS_OF_GPU;
+    const uint32_t wanted = (uint32_t)job->cli->options.part.band_rows;
+    uint64_t pixels = paths / part->samples;
+    pixels = pixels < BAND_PIXELS ? pixels : BAND_PIXELS;
+    const uint32_t rows = wanted ? wanted + TILE_ROWS - 1 : (uint32_t)(pixels / part->region.width);
+    return rows < TILE_ROWS ? TILE_ROWS : rows / TILE_ROWS * TILE_ROWS;
+}
+
+struct shot_region render_first_region(struct render_job *job) {
+    const struct part_region *r = &job->part.region;
+    if (!job->in_bands && !job->is_part)
+        return (struct shot_region){0};
+    const uint32_t rows = job->in_bands ? rows_of(job) : r->height;
+    return (struct shot_region){r->x, r->y, r->width, rows < r->height ? rows : r->height};
+}
+
+// ---- the checkpoint
+
+static bool goes_on(void *context) {
+    const struct bands_run *run = context;
+    return run->job->cli->options.part.resume_arg && interrupt_signal() == 0;
+}
+
+static int refuse(struct bands_run *run, const char *words) {
+    struct cli *cli = run->job->cli;
+    const int status = cli_usage(cli, place_of(run->job), "'%s' %s", run->path, words);
+    diag_help(&cli->sink, cli->options.part.resume_arg
+                              ? "remove it to begin anew"
+                              : "go on from it with --resume, or remove it to begin anew");
+    return status;
+}
+
+static int begin_anew(struct bands_run *run, struct strbuf *error) {
+    struct render_job *job = run->job;
+    strbuf_clear(error);
+    run->is_open = bands_create(&run->bands, run->path, &job->part, rows_of(job), error);
+    if (run->is_open)
+        return CLI_OK;
+    cli_error(job->cli, error->len ? DIAG_OUTPUT : DIAG_OUT_OF_MEMORY, run->path, NULL, "%s",
+              error->len ? error->data : "not enough memory for the checkpoint");
+    return CLI_FILE;
+}
+
+// A checkpoint that is there without --resume may be the work of hours: it is not written over.
+static int go_on(struct bands_run *run, struct strbuf *error) {
+    struct render_job *job = run->job;
+    bool missing;
+    run->is_open = bands_open(&run->bands, run->path, goes_on, run, &missing, error);
+    if (missing)
+        return begin_anew(run, error);
+    if (!run->is_open)
+        return refuse(run, error->len ? error->data : "needs more memory than there is");
+    if (!job->cli->options.part.resume_arg)
+        return refuse(run, "is there: a run before this one has left it");
+    const char *words = bands_difference(&run->bands, &job->part);
+    if (words)
+        return refuse(run, arena_format(&job->cli->arena, "%s this one", words).ptr);
+    if (!run->bands.is_judged)
+        return CLI_STOPPED;
+    run->found = run->bands.done_count;
+    if (!job->cli->options.quiet)
+        fprintf(stderr, "glint: %u of %u bands are in %s already\n", run->found, run->bands.count, run->path);
+    return CLI_OK;
+}
+
+static int open_checkpoint(struct bands_run *run) {
+    struct strbuf error;
+    strbuf_init(&error);
+    render_fill_part(run->job);
+    run->path = arena_format(&run->job->cli->arena, "%s" BANDS_ENDING,
+                             render_output_of(run->job, first_file(run->job), run->camera))
+                    .ptr;
+    const int status = go_on(run, &error);
+    strbuf_finish(&error);
+    return status;
+}
+
+// ---- bands
+
+// What was wrong, added to what was wrong in bands above.
+static void add_faults(const struct bands_faults *in, struct render_fault *faults) {
+    for (int kind = 1; kind < RENDER_FAULT_KINDS; kind++) {
+        const uint32_t *words = in->words[kind - 1], before = faults[kind].pixels;
+        if (words[0] && before == 0)
+            faults[kind] = (struct render_fault){.x = words[1],
+                                                 .y = words[2],
+                                                 .has_body = words[3] != 0,
+                                                 .body = words[4],
+                                                 .triangle = words[5],
+                                                 .is_nested = words[6] != 0};
+        faults[kind].pixels = before + words[0];
+    }
+}
+
+static int cannot_write(struct bands_run *run) {
+    cli_error(run->job->cli, DIAG_OUTPUT, run->path,
+              "a picture in bands needs 12 bytes of disk for each pixel while it is rendered",
+              "cannot be written: %s", strerror(run->bands.spool.error));
+    return CLI_FILE;
+}
+
+static int take_band(struct bands_run *run, uint32_t band) {
+    struct render_job *job = run->job;
+    struct shot *shot = &job->shot;
+    const struct render_progress progress = progress_callback(&job->progress);
+    struct render_statistics made;
+    bands_aim(run, band, &shot->settings);
+    if (!renderer_change(shot->renderer, &shot->flat, &shot->settings))
+        return render_failed(job, SHOT_DEVICE);
+    const enum shot_status status = shot_take_silently(shot, &run->band, &progress, &made);
+    if (status == SHOT_CANCELLED)
+        return CLI_STOPPED;
+    if (status != SHOT_OK)
+        return render_failed(job, status);
+    return bands_keep(run, band, run->band.rgb, &shot->settings, &made) ? CLI_OK : CLI_FILE;
+}
+
+static void give_up(struct bands_run *run) {
+    parallel_lock_take(&run->lock);
+    run->gives_up = true;
+    parallel_lock_give(&run->lock);
+}
+
+static int take_bands(struct bands_run *run) {
+    struct render_job *job = run->job;
+    struct bands *bands = &run->bands;
+    struct band_devices *devices;
+    int status;
+    if (!image_init(&run->band, bands->part.region.width, bands->rows)) {
+        cli_error(job->cli, DIAG_OUT_OF_MEMORY, run->path, NULL, "not enough memory for a band");
+        return CLI_SCENE;
+    }
+    status = bands_begin_devices(run, &devices);
+    for (uint32_t band; status == CLI_OK && (band = bands_claim(run)) < bands->count;) {
+        job->progress.base = (double)bands->done_count / bands->count;
+        job->progress.share = 1.0 / bands->count;
+        status = take_band(run, band);
+    }
+    if (status != CLI_OK)
+        give_up(run);
+    const int others = bands_end_devices(run, devices);
+    status = status == CLI_OK ? others : status;
+    if (bands->spool.error)
+        return cannot_write(run);
+    return status == CLI_OK && bands->done_count < bands->count ? CLI_STOPPED : status;
+}
+
+static void report_faults(struct bands_run *run) {
+    struct render_fault faults[RENDER_FAULT_KINDS] = {0};
+    for (uint32_t i = 0; i < run->bands.count; i++)
+        add_faults(&run->bands.faults[i], faults);
+    shot_report_faults(&run->job->shot, faults);
+}
+
+// ---- the end
+
+static int stop(struct bands_run *run) {
+    struct render_job *job = run->job;
+    const struct bands *bands = &run->bands;
+    progress_end(&job->progress);
+    if (!bands->is_judged) {
+        fprintf(stderr, "glint: stopped: %s is as it was; the same command with --resume goes on\n",
+                run->path);
+        return CLI_STOPPED;
+    }
+    if (!spool_settle(&run->bands.spool))
+        return cannot_write(run);
+    if (job->cli->options.part.partial_arg && bands->done_count) {
+        const int status = bands_write_partial(run);
+        if (status != CLI_OK)
+            return status;
+    }
+    fprintf(stderr, "glint: stopped: %u of %u bands are in %s; the same command with --resume goes on\n",
+            bands->done_count, bands->count, run->path);
+    return CLI_STOPPED;
+}
+
+static void note_statistics(struct bands_run *run, double seconds) {
+    struct stats *s = &run->job->stats;
+    s->last = run->all;
+    s->frames = 1;
+    s->first_frame_seconds = s->least_frame_seconds = s->most_frame_seconds = s->median_frame_seconds =
+        seconds;
+    s->median_device_seconds = run->all.device_seconds;
+    run->job->shot.settings.height = run->bands.part.region.height;
+}
+
+int render_in_bands(struct render_job *job, uint32_t camera) {
+    struct bands_run run = {.job = job, .camera = camera};
+    parallel_lock_begin(&run.lock);
+    job->progress.patience = PROGRESS_PATIENCE;
+    int status = open_checkpoint(&run);
+    const double start = clock_seconds();
+    if (status == CLI_OK)
+        status = take_bands(&run);
+    timeline_add(job->timeline, "bands", STR(""), start);
+    note_statistics(&run, clock_seconds() - start);
+    if (status == CLI_OK) {
+        progress_end(&job->progress);
+        status = bands_write(&run);
+    }
+    if (status == CLI_OK)
+        report_faults(&run);
+    if (status == CLI_STOPPED)
+        status = stop(&run);
+    const bool is_empty = run.is_open && run.bands.done_count == 0 && run.bands.is_judged;
+    if (run.is_open && (status == CLI_OK || (is_empty && status != CLI_STOPPED && status != CLI_USAGE)))
+        bands_remove(&run.bands);
+    else if (run.is_open)
+        bands_finish(&run.bands);
+    image_finish(&run.band);
+    parallel_lock_end(&run.lock);
+    return status;
+}

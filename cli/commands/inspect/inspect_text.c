@@ -1,0 +1,140 @@
+// The report on a scene, for people.
+#include "cli/commands/inspect/inspect.h"
+#include "core/number.h"
+#include "grammar/ir_walk.h"
+#include "grammar/schema.h"
+
+static void number(struct strbuf *out, double value) {
+    char text[NUMBER_FORMAT_MAX];
+    strbuf_add(out, text, number_format(value, text));
+}
+
+static void vector(struct strbuf *out, vec3 v) {
+    number(out, v.x);
+    strbuf_char(out, ' ');
+    number(out, v.y);
+    strbuf_char(out, ' ');
+    number(out, v.z);
+}
+
+static void counts(struct strbuf *out, const struct session *s) {
+    const struct ir_scene *scene = s->scene;
+    const uint32_t named = inspect_named_materials(scene);
+    strbuf_format(out, "files       %u\n", s->origin.files.count);
+    strbuf_format(out, "image       %d x %d pixels, %d sample%s\n", s->image->width, s->image->height,
+                  s->image->samples, s->image->samples == 1 ? "" : "s");
+    strbuf_format(out, "cameras     %u\nlights      %u\n", scene->cameras.count, scene->lights.count);
+    strbuf_format(out, "materials   %u named, %u inline, %u used in all, including those of meshes\n", named,
+                  scene->materials.count - named, s->assets.material_count);
+    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
+        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
+        if (scene_is_body(row->child))
+            strbuf_format(out, "%-12s%u\n", schema_yaml_key(row), ir_walk_list(row, scene).count);
+    }
+}
+
+static void bounds(struct strbuf *out, const struct session *s) {
+    vec3 lower;
+    vec3 upper;
+    if (!scene_bounds(&s->resolved, &lower, &upper)) {
+        strbuf_cstr(out, "bounds      none: the scene has no body\n");
+        return;
+    }
+    strbuf_cstr(out, "bounds      ");
+    vector(out, lower);
+    strbuf_cstr(out, " to ");
+    vector(out, upper);
+    strbuf_char(out, '\n');
+}
+
+static void meshes(struct strbuf *out, const struct session *s) {
+    for (uint32_t i = 0; i < s->assets.model_count; i++) {
+        const struct mesh *mesh = s->assets.models[i].mesh;
+        const struct ir_model *model = &s->scene->models.items[i];
+        if (!mesh)
+            continue;
+        strbuf_format(out, "  %.*s%s%.*s: %u triangles, %s", STR_ARG(model->name),
+                      model->name.len ? ", " : "", STR_ARG(model->mesh), mesh->triangle_count,
+                      mesh->closed ? "closed" : "open");
+        if (!mesh->closed)
+            strbuf_format(out, " (%u edges, the first at %s %u of the mesh)", mesh->open_edges,
+                          mesh_place_word(mesh), mesh->open_line);
+        if (mesh->zero_area)
+            strbuf_format(out, ", %u without area", mesh->zero_area);
+        strbuf_cstr(out, mesh->turned ? ", turned outward\n" : "\n");
+    }
+}
+
+static void features(struct strbuf *out, const struct inspected_scene *scene) {
+    strbuf_cstr(out, "features\n");
+    for (uint32_t i = 0; i < FEATURE_COUNT; i++) {
+        const uint64_t bit = UINT64_C(1) << i;
+        struct strbuf words;
+        if (!(scene->flat.features & bit))
+            continue;
+        strbuf_init(&words);
+        const span at = inspect_feature(scene, bit, &words);
+        strbuf_format(out, "  %-17s", feature_name(bit));
+        if (!span_is_none(at)) {
+            struct source_place place = source_locate(&scene->session->sources, at);
+            strbuf_format(out, "%.*s:%u:%u: ", STR_ARG(place.path), place.line, place.column);
+        }
+        strbuf_format(out, "%.*s\n", STR_ARG(strbuf_view(&words)));
+        strbuf_finish(&words);
+    }
+    strbuf_cstr(out, "not required:");
+    for (uint32_t i = 0; i < FEATURE_COUNT; i++)
+        if (FEATURE_SCENE_MASK & ~scene->flat.features & UINT64_C(1) << i)
+            strbuf_format(out, " %s", feature_name(UINT64_C(1) << i));
+    strbuf_char(out, '\n');
+}
+
+// How models hold a mesh that several of them show, and why.
+static void instances(struct strbuf *out, const struct flat_scene *flat) {
+    if (!flat->use_count)
+        return;
+    strbuf_cstr(out, "meshes of several models\n");
+    for (uint32_t i = 0; i < flat->use_count; i++) {
+        const struct flat_use *use = &flat->uses[i];
+        strbuf_format(out, "  %.*s: ", STR_ARG(use->mesh->path));
+        if (use->instances) {
+            strbuf_format(out, "%u models share %u triangles, which saves %.1f MiB", use->instances,
+                          use->mesh->triangle_count - use->copied, (double)use->saved_bytes / (1 << 20));
+            if (use->copied)
+                strbuf_format(out, "; %u more are too thin for that", use->copied);
+            strbuf_cstr(out, use->instances < use->models ? "; " : "\n");
+        }
+        if (use->instances < use->models) {
+            strbuf_format(out, "%u models have copies: ", use->models - use->instances);
+            inspect_copies(use, out);
+            strbuf_char(out, '\n');
+        }
+    }
+    strbuf_cstr(out, "  a device without doubles makes copies for all\n");
+}
+
+static void buffers(struct strbuf *out, const struct flat_scene *flat) {
+    struct inspect_buffer all[INSPECT_BUFFERS];
+    const uint32_t count = inspect_buffers(flat, all);
+    strbuf_cstr(out, "buffers\n");
+    for (uint32_t i = 0; i < count; i++)
+        strbuf_format(out, "  %-17s%12llu bytes\n", all[i].name, (unsigned long long)all[i].bytes);
+    strbuf_format(out, "triangles   %u in a tree of depth %u, %u without area dropped", flat->triangle_count,
+                  flat->triangle_depth, flat->dropped_triangles);
+    if (flat->shown_triangles > flat->triangle_count)
+        strbuf_format(out, "; %llu shown", (unsigned long long)flat->shown_triangles);
+    strbuf_char(out, '\n');
+    strbuf_cstr(out, "origin      ");
+    vector(out, flat->origin);
+    strbuf_format(out, ", scaled by 2^%d\n", flat->scale_exponent);
+}
+
+void inspect_scene_text(const struct inspected_scene *scene, struct strbuf *out) {
+    counts(out, scene->session);
+    bounds(out, scene->session);
+    meshes(out, scene->session);
+    precision_words(scene->session, &scene->precision, out);
+    features(out, scene);
+    instances(out, &scene->flat);
+    buffers(out, &scene->flat);
+}

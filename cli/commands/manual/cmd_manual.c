@@ -1,0 +1,81 @@
+// glint manual: man pages and completions, from the tables of commands and options.
+#include "cli/about/about.h"
+#include "cli/commands/commands.h"
+#include "cli/commands/manual/manual.h"
+#include "core/nearest.h"
+
+#include <string.h>
+
+static void take_options(struct cli *cli, const struct cli_command *command, struct manual_command *into) {
+    struct cli_option_text option;
+    uint32_t count = 0;
+    for (int at = 0; (at = cli_next_option(command, at, &option)) != 0;)
+        count++;
+    into->options = ARENA_ARRAY(&cli->arena, struct cli_option_text, count);
+    for (int at = 0; (at = cli_next_option(command, at, &option)) != 0;)
+        into->options[into->option_count++] = option;
+}
+
+static struct manual_command of_command(struct cli *cli, const struct cli_command *c) {
+    struct manual_command made = {c->name, c->operands, c->summary, c->details, NULL, 0};
+    take_options(cli, c, &made);
+    return made;
+}
+
+static struct manual make(struct cli *cli) {
+    struct manual manual = {
+        .version = GLINT_VERSION, .date = about_date, .purpose = cli_purpose, .exits = cli_exits};
+    uint32_t count = 0;
+    while (cli->commands[count].name)
+        count++;
+    take_options(cli, NULL, &manual.program);
+    manual.commands = ARENA_ARRAY(&cli->arena, struct manual_command, count);
+    for (uint32_t i = 0; i < count; i++)
+        manual.commands[manual.command_count++] = of_command(cli, &cli->commands[i]);
+    return manual;
+}
+
+static const struct manual_command *find(const struct manual *manual, const char *name) {
+    for (uint32_t i = 0; i < manual->command_count; i++)
+        if (strcmp(manual->commands[i].name, name) == 0)
+            return &manual->commands[i];
+    return NULL;
+}
+
+// The index of the first operand; -1, with the mistake reported.
+static int kind_of(struct cli *cli, const char *const *kinds) {
+    struct nearest search = nearest_begin(str_from(cli->operands[0]));
+    for (int i = 0; kinds[i]; i++) {
+        if (strcmp(cli->operands[0], kinds[i]) == 0)
+            return i;
+        nearest_offer(&search, str_from(kinds[i]));
+    }
+    cli_usage(cli, cli_operand_place(cli, 0), "there is no manual '%s'; write page, bash, zsh or fish",
+              cli->operands[0]);
+    if (nearest_best(&search).len)
+        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
+    return -1;
+}
+
+int cmd_manual(struct cli *cli) {
+    static const char *const kinds[] = {"page", "bash", "zsh", "fish", NULL};
+    const int kind = kind_of(cli, kinds);
+    const char *name = cli->operand_count > 1 ? cli->operands[1] : NULL;
+    if (kind < 0)
+        return CLI_USAGE;
+    if (name && kind > 0)
+        return cli_usage(cli, cli_operand_place(cli, 1), "completions are those of all commands");
+    const struct manual manual = make(cli);
+    const struct manual_command *command = name ? find(&manual, name) : NULL;
+    if (name && !command)
+        return cli_usage(cli, cli_operand_place(cli, 1), "there is no command '%s'", name);
+    struct strbuf text;
+    strbuf_init(&text);
+    if (kind == 0)
+        manual_page(&manual, command, &text);
+    else
+        (kind == 1 ? manual_bash : kind == 2 ? manual_zsh : manual_fish)(&manual, &text);
+    const int status = cli_print(cli, strbuf_view(&text));
+    strbuf_finish(&text);
+    return status;
+}

@@ -1,0 +1,284 @@
+// glint verify PICTURE [SCENE]: renders a picture again as it says that it was made, and compares.
+#include "cli/commands/commands.h"
+#include "cli/commands/verify/verify.h"
+
+#include "cli/commands/pictures/provenance.h"
+#include "cli/commands/render_job.h"
+#include "cli/device.h"
+#include "core/heap.h"
+#include "files/files.h"
+#include "grammar/ir.h"
+#include "scene/content.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    DEVICES_MAX = 32
+};
+
+// ---- the picture
+
+static int read_picture(struct verify *v) {
+    struct cli *cli = v->cli;
+    const struct limits *limits = &cli->options.limits;
+    struct files *files = ARENA_NEW(&cli->arena, struct files);
+    bool unknown;
+    files_init(files, &cli->arena);
+    const enum file_status read =
+        files_read_given(files, str_from(v->path), limits->value[LIMIT_IMAGE_BYTES], &cli->arena, &v->bytes);
+    if (read != FILE_OK) {
+        cli_error(cli, session_file_code(read), v->path, NULL, "%s", file_status_text(files, read));
+        return CLI_FILE;
+    }
+    record_find(v->bytes, &v->was);
+    const char *fault =
+        picture_file_decode(v->bytes, limits->value[LIMIT_IMAGE_MEMORY], &v->pictures[0], &unknown);
+    if (fault) {
+        cli_error(cli, unknown ? DIAG_IMAGE_KIND : DIAG_IMAGE_BROKEN, v->path, NULL, "%s", fault);
+        return CLI_SCENE;
+    }
+    return CLI_OK;
+}
+
+static int no_record(struct verify *v) {
+    cli_error(v->cli, DIAG_IMAGE_KIND, v->path,
+              "docs/provenance.md says which pictures do; 'glint compare' compares any two",
+              v->was.is_there
+                  ? "the picture's record of how it was made cannot be understood: its command is "
+                    "not one that glint writes"
+                  : "the picture does not say how it was made");
+    return CLI_SCENE;
+}
+
+// What the file says must not make this process read or write anything but its scene.
+static int read_record(struct verify *v) {
+    struct cli *cli = v->cli;
+    if (!v->was.is_there || !record_read_command(v->was.fields[RECORD_COMMAND], &cli->arena, &v->command))
+        return no_record(v);
+    if (cli->operand_count > 1)
+        v->scene = cli->operands[1];
+    else if (str_equal(v->command.scene, STR("-")))
+        return cli_usage(cli, cli_operand_place(cli, 0),
+                         "the picture was made of a scene on standard input: name a file with the scene");
+    else
+        v->scene = arena_copy(&cli->arena, v->command.scene).ptr;
+    if (!cli->options.trust_record) {
+        cli->named_in = path_folder(str_from(v->path));
+        cli->names_scene = cli->operand_count == 1;
+    }
+    return CLI_OK;
+}
+
+// ---- the same settings
+
+static void add_paths(struct verify *v) {
+    struct cli_list *own = &v->cli->options.asset_paths;
+    if (v->cli->named_in.len)
+        v->cli->named_asset_paths = v->command.asset_path_count;
+    for (uint32_t i = 0; i < v->command.asset_path_count; i++)
+        *(str *)ARENA_PUSH(&v->cli->arena, own) = v->command.asset_paths[i];
+}
+
+// The device of the record, if it is here and no other was asked for.
+static const char *device_of(struct verify *v) {
+    struct gpu_device_info *items = ARENA_ARRAY(&v->cli->arena, struct gpu_device_info, DEVICES_MAX);
+    char error[GPU_ERROR_BYTES] = "";
+    uint32_t count = 0;
+    const str device = v->was.fields[RECORD_DEVICE];
+    if (cli_device_wanted(v->cli))
+        return v->cli->options.device;
+    if (v->command.is_reference)
+        return "reference";
+    if (gpu_list(items, DEVICES_MAX, &count, error) != GPU_OK)
+        return NULL;
+    for (uint32_t i = 0; i < count && i < DEVICES_MAX; i++)
+        if (str_starts_with(device, str_from(items[i].name)))
+            return items[i].name;
+    return NULL;
+}
+
+static void take_settings(struct verify *v) {
+    struct cli_options *o = &v->cli->options;
+    const struct record_command *c = &v->command;
+    o->width = c->width;
+    o->height = c->height;
+    o->samples = c->samples;
+    o->camera = c->camera;
+    o->sets.items = (str *)c->sets;
+    o->sets.count = o->sets.capacity = c->set_count;
+    add_paths(v);
+    o->measure.noise = c->noise;
+    o->audit = c->audit;
+    o->has_max_off = c->max_off >= 0;
+    o->max_off = c->max_off;
+    o->as_file = c->as_file;
+    o->depth = (int32_t)c->coding.bits;
+    o->quality = (int32_t)c->coding.quality;
+    o->compression = (int)c->coding.compression;
+    o->device = device_of(v);
+    o->quiet = true;
+    int32_t width, height;
+    if (record_read_size(v->was.fields[RECORD_SCALED], &width, &height)) {
+        o->measure.scale_width = (uint32_t)width;
+        o->measure.scale_height = (uint32_t)height;
+    }
+}
+
+// ---- the scene, before anything is rendered
+
+static int load_scene(struct verify *v) {
+    struct cli *cli = v->cli;
+    struct session *session = ARENA_NEW(&cli->arena, struct session);
+    struct session_options options = cli_session_options(cli, v->scene);
+    struct asset_store *store = asset_store_create();
+    options.lint = LINT_CHEAP;
+    session_load(session, &options, store);
+    const bool good = session->state == SESSION_LOADED && session->sink.errors == 0;
+    const int status = good ? CLI_OK : cli_report(cli, session, false);
+    if (good)
+        scene_content_text(&session->resolved, v->scene_hash);
+    else if (status == CLI_REFUSED)
+        fprintf(stderr,
+                "glint: the picture names what is not below its own folder; to read it all the same: "
+                "--trust-record%s%s%s\n",
+                cli->names_scene ? ", or glint verify " : "", cli->names_scene ? v->path : "",
+                cli->names_scene ? " SCENE" : "");
+    else if (session->state == SESSION_UNREADABLE && cli->operand_count == 1)
+        fprintf(stderr,
+                "glint: that is the scene that the picture names; if it is elsewhere now: glint verify %s "
+                "SCENE\n",
+                v->path);
+    session_finish(session);
+    asset_store_destroy(store);
+    if (good && !str_equal_cstr(v->was.fields[RECORD_SCENE], v->scene_hash))
+        fprintf(stderr, "glint: %s was changed since the picture was made, or is another scene\n", v->scene);
+    return status;
+}
+
+// ---- pixels
+
+static bool is_other(float a, float b) {
+    return a != b && !(isnan(a) && isnan(b));
+}
+
+static void count_pixels(struct verify *v) {
+    const struct picture_file *p = v->pictures;
+    const uint64_t pixels = (uint64_t)p[0].width * p[0].height;
+    struct verify_pixels *out = &v->pixels;
+    double most = -1;
+    out->count = pixels;
+    for (uint64_t i = 0; i < pixels; i++) {
+        bool differs = false;
+        for (uint32_t k = 0; k < 3; k++) {
+            const float was = p[0].rgb[3 * i + k], is = p[1].rgb[3 * i + k];
+            const double off = isfinite(was) && isfinite(is) ? fabs((double)was - is) : INFINITY;
+            if (!is_other(was, is))
+                continue;
+            differs = true;
+            if (off > most)
+                out->worst = (struct measure_place){(uint32_t)(i % p[0].width), (uint32_t)(i / p[0].width), k,
+                                                    was, is};
+            most = fmax(most, off);
+        }
+        out->differ += differs;
+    }
+}
+
+static bool measure_displayed(struct verify *v, struct image_display display) {
+    struct picture_file *p = v->pictures;
+    struct measure_options options = measure_options_default();
+    struct measure_result result;
+    for (int i = 0; i < 2; i++)
+        if (p[i].space == MEASURE_LINEAR)
+            image_to_displayed(p[i].rgb, (size_t)p[i].width * p[i].height, display, p[i].rgb);
+    options.threshold = VERIFY_OFF;
+    options.metrics = 1u << METRIC_MAE | 1u << METRIC_SHARE;
+    if (!measure_pictures(p[0].width, p[0].height, p[0].rgb, p[1].rgb, &options, &result, NULL, NULL))
+        return false;
+    v->pixels.share = result.value[METRIC_SHARE];
+    v->pixels.mean = result.value[METRIC_MAE];
+    return true;
+}
+
+static int no_memory(struct verify *v) {
+    cli_error(v->cli, DIAG_OUT_OF_MEMORY, v->path, NULL, "not enough memory to compare the pictures");
+    return CLI_FILE;
+}
+
+static int compare(struct verify *v, struct image_display display) {
+    struct picture_file *p = v->pictures;
+    bool unknown;
+    const str made = strbuf_view(&v->made);
+    const char *fault =
+        picture_file_decode(made, v->cli->options.limits.value[LIMIT_IMAGE_MEMORY], &p[1], &unknown);
+    if (fault || v->made.failed)
+        return no_memory(v);
+    record_find(made, &v->is);
+    if (p[0].width != p[1].width || p[0].height != p[1].height) {
+        v->pixels = (struct verify_pixels){.count = (uint64_t)p[0].width * p[0].height,
+                                           .differ = (uint64_t)p[0].width * p[0].height,
+                                           .share = 1,
+                                           .mean = 1};
+        return CLI_OK;
+    }
+    count_pixels(v);
+    return v->pixels.differ == 0 || measure_displayed(v, display) ? CLI_OK : no_memory(v);
+}
+
+// ---- all of it
+
+static int render(struct verify *v, struct image_display *display) {
+    struct cli *cli = v->cli;
+    struct render_job job = {.cli = cli, .kept = &v->made};
+    struct cli_output *output = ARENA_NEW(&cli->arena, struct cli_output);
+    output->path = "-";
+    for (int format = 0; format < IMAGE_FORMATS; format++)
+        if (strcmp(image_format_info((enum image_format)format)->name, v->pictures[0].kind) == 0)
+            output->format = (enum image_format)format;
+    job.outputs = output;
+    job.output_count = 1;
+    cli->operands[0] = (char *)v->scene;
+    const int status = render_whole(&job);
+    *display = job.display;
+    // One with faulty pixels is a picture, and its errors were told.
+    return v->made.len ? CLI_OK : status;
+}
+
+static int verify(struct verify *v) {
+    struct image_display display;
+    int status = read_picture(v);
+    if (status == CLI_OK)
+        status = read_record(v);
+    if (status != CLI_OK)
+        return status;
+    take_settings(v);
+    status = load_scene(v);
+    if (status == CLI_OK)
+        status = render(v, &display);
+    if (status == CLI_OK)
+        status = compare(v, display);
+    if (status != CLI_OK)
+        return status;
+    struct strbuf text;
+    strbuf_init(&text);
+    (v->format == 1 ? verify_json : verify_text)(v, &text);
+    status = cli_write_made(v->cli, "-", &text, "the report");
+    strbuf_finish(&text);
+    return status == CLI_OK && !verify_holds(v) ? CLI_SCENE : status;
+}
+
+int cmd_verify(struct cli *cli) {
+    static const char *const formats[] = {"text", "json", NULL};
+    struct verify v = {.cli = cli, .path = cli->operands[0]};
+    if (!cli_format(cli, formats, &v.format))
+        return CLI_USAGE;
+    strbuf_init(&v.made);
+    const int status = verify(&v);
+    strbuf_finish(&v.made);
+    for (int i = 0; i < 2; i++)
+        picture_file_finish(&v.pictures[i]);
+    return status;
+}
