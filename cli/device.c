@@ -175,7 +175,7 @@ struct gpu_options cli_device_options(struct cli *cli) {
     if (path)
         *store = (struct folder_store){arena_copy(&cli->arena, str_from(path)).ptr, KERNELS_BYTES};
     free(path);
-    // Of several devices this is the first: cli/bands opens the others.
+    // Of several devices this is the first: cli/commands/bands opens the others.
     const char *wanted = cli_device_wanted(cli);
     if (cli->options.part.spreads)
         wanted = strcmp(wanted, "all") == 0

@@ -1,4 +1,4 @@
-// The options of many pictures from one process (cli/batch).
+// The options of many pictures from one process (cli/commands/batch).
 //
 // Thread safety: as cli.h.
 #ifndef GLINT_CLI_OPTIONS_OPTIONS_BATCH_H

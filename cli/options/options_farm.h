@@ -1,4 +1,4 @@
-// The options of glint farm (cli/farm).
+// The options of glint farm (cli/commands/farm).
 //
 // Thread safety: as cli.h.
 #ifndef GLINT_CLI_OPTIONS_OPTIONS_FARM_H

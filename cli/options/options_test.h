@@ -1,4 +1,4 @@
-// The options of glint test (cli/test).
+// The options of glint test (cli/commands/test).
 //
 // Thread safety: as cli.h.
 #ifndef GLINT_CLI_OPTIONS_OPTIONS_TEST_H
