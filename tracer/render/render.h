@@ -1,7 +1,7 @@
 // From a flat scene, a camera and a device to a picture of linear floats.
 //
 // A renderer holds the scene on the device and the compiled kernel, for as many frames as wanted. Pictures
-// are made in bands, samples, slices and pieces (docs/architecture.md, "Slices"); none shows in the
+// are made in bands, samples, slices and pieces (docs/decisions/numbers.md); none shows in the
 // result. Input: the flat scene is copied to the device; it must outlive the renderer all the same.
 // Errors: RENDER_FAILED, with the text in gpu_error. Ownership: renderer_destroy takes NULL.
 // Thread safety: a renderer belongs to its gpu's thread.

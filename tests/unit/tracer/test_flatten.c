@@ -1,4 +1,4 @@
-// Scenes to buffers: what docs/architecture.md promises in "Numbers", at the level of bits.
+// Scenes to buffers: what docs/decisions/numbers.md promises, at the level of bits.
 #include "flat_kit.h"
 #include "scene/transform.h"
 #include "shaders/features.h"
