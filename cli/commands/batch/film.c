@@ -128,6 +128,12 @@ static char *temporary_name(const char *path) {
 static const char *const mp4_words[] = {"-c:v", "libx264", "-crf", "16", "-movflags", "+faststart", NULL};
 static const char *const webm_words[] = {"-c:v", "libvpx-vp9", "-crf", "20", "-b:v", "0", NULL};
 static const char *const gif_words[] = {NULL};
+// Of all but a GIF, which is neither BT.709 nor of a limited range.
+static const char *const bt709_words[] = {
+    "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv", NULL};
+enum {
+    WORDS_MOST = 48, // of the command, with the NULL at its end
+};
 
 static const char *const *coding_words(const char *path) {
     const str p = str_from(path);
@@ -144,6 +150,15 @@ static const char *filter_of(const struct film *film) {
                ? "scale=flags=accurate_rnd+full_chroma_int:out_color_matrix=bt709:out_range=tv,format=yuv444p"
                : "scale=flags=accurate_rnd+full_chroma_int:out_color_matrix=bt709:out_range=tv,format="
                  "yuv420p";
+}
+
+// After the last of `words`; NULL ends both lists.
+static void append_words(const char *words[WORDS_MOST], const char *const *more) {
+    size_t count = 0;
+    while (words[count])
+        count++;
+    while (*more && count + 1 < WORDS_MOST)
+        words[count++] = *more++;
 }
 
 static int start_ffmpeg(struct film *film) {
@@ -163,38 +178,15 @@ static int start_ffmpeg(struct film *film) {
     snprintf(size, sizeof size, "%ux%u", film->width, film->height);
     snprintf(rate, sizeof rate, "%s", fraction.data ? fraction.data : "25");
     strbuf_finish(&fraction);
-    const char *words[48] = {"ffmpeg",
-                             "-hide_banner",
-                             "-loglevel",
-                             "error",
-                             "-y",
-                             "-f",
-                             "rawvideo",
-                             "-pixel_format",
-                             "rgb24",
-                             "-video_size",
-                             size,
-                             "-framerate",
-                             rate,
-                             "-i",
-                             "pipe:0",
-                             "-filter_complex",
-                             filter_of(film),
-                             "-colorspace",
-                             "bt709",
-                             "-color_primaries",
-                             "bt709",
-                             "-color_trc",
-                             "bt709",
-                             "-color_range",
-                             "tv"};
-    const bool gif = coding_words(film->path) == gif_words;
-    int count = gif ? 17 : 25; // a GIF is neither BT.709 nor of a limited range
-    words[17] = gif ? NULL : words[17];
-    for (const char *const *w = coding_words(film->path); *w; w++)
-        words[count++] = *w;
-    words[count++] = film->temporary;
-    words[count] = NULL;
+    const char *words[WORDS_MOST] = {
+        "ffmpeg",        "-hide_banner",    "-loglevel",    "error", "-y",         "-f", "rawvideo",
+        "-pixel_format", "rgb24",           "-video_size",  size,    "-framerate", rate, "-i",
+        "pipe:0",        "-filter_complex", filter_of(film)};
+    const char *const *const coding = coding_words(film->path);
+    if (coding != gif_words)
+        append_words(words, bt709_words);
+    append_words(words, coding);
+    append_words(words, (const char *const[]){film->temporary, NULL});
     fcntl(ends[0], F_SETFD, FD_CLOEXEC);
     fcntl(ends[1], F_SETFD, FD_CLOEXEC);
     fcntl(film->said, F_SETFD, FD_CLOEXEC);
