@@ -174,3 +174,16 @@ endfunction()
 function(glint_include_all target)
   target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR})
 endfunction()
+
+# glint_embed(OUT NAME FILE): a C file, whose path OUT is set to, that defines `const char NAME[]`, the bytes of FILE and a
+# zero after them.
+function(glint_embed out name file)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  file(READ ${file} bytes HEX)
+  string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
+  string(REGEX REPLACE "(................................................................................)" "\\1\n    "
+         bytes "${bytes}")
+  set(made ${CMAKE_CURRENT_BINARY_DIR}/${name}.c)
+  file(CONFIGURE OUTPUT ${made} CONTENT "extern const char ${name}[];\nconst char ${name}[] = {\n    @bytes@0};\n" @ONLY)
+  set(${out} ${made} PARENT_SCOPE)
+endfunction()

@@ -38,7 +38,7 @@ struct job {
 static int read_bounds(struct job *job) {
     struct cli *cli = job->cli;
     const char *path = cli->options.thresholds;
-    str text = {extremes_default_bounds, extremes_default_bounds_bytes};
+    str text = str_from(extremes_default_bounds);
     job->bounds_path = path ? str_from(path) : STR("glint's own");
     struct files files;
     files_init(&files, &cli->arena);

@@ -81,10 +81,8 @@ struct extremes_progress {
     void *context;
 };
 
-// The bounds that hold where no others are given: YAML (load/settings/extreme_bounds.h), without a NUL after
-// it.
+// The bounds that hold where no others are given: YAML (load/settings/extreme_bounds.h).
 extern const char extremes_default_bounds[];
-extern const size_t extremes_default_bounds_bytes;
 
 enum extremes_status {
     EXTREMES_DONE,

@@ -50,8 +50,10 @@ void farm_end(struct farm_plan *plan, int status);
 int farm_check(struct cli *cli, struct farm_plan *plan);
 // Renders small pictures of some frames, and chooses the chunk. An exit code.
 int farm_measure(struct cli *cli, struct farm_plan *plan);
-// farm_script.c: the shell's part of a script: what a task and the merge do.
-void farm_write_tasks(struct cli *cli, const struct farm_plan *plan, struct strbuf *out);
+// farm_script.c: the shell's parts of a script, from the templates beside it (*.sh.in): what a task and the
+// merge do, the same for all engines; and how Slurm or GNU parallel start them.
+void farm_write_tasks(const struct cli_options *options, const struct farm_plan *plan, struct strbuf *out);
+void farm_write_engine(const struct cli_options *options, const struct farm_plan *plan, struct strbuf *out);
 // A word for a shell of POSIX, in quotes. It has no control characters.
 void farm_quote(struct strbuf *out, const char *word);
 // farm_engine.c: all of it.

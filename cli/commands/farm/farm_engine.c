@@ -70,157 +70,6 @@ static void explain(const struct farm_plan *plan, struct strbuf *out) {
     strbuf_cstr(out, "# docs/farm.md says more.\n");
 }
 
-// ---- shells
-
-// Where a list of tasks such as 3,8-9 is needed one by one.
-static const char each_function[] = "# each LIST: the tasks of a list such as 3,8-9, one a line.\n"
-                                    "each() {\n"
-                                    "    for range in $(printf '%s' \"$1\" | tr , ' '); do\n"
-                                    "        seq \"${range%-*}\" \"${range#*-}\"\n"
-                                    "    done\n"
-                                    "}\n\n";
-
-static const char own_place[] = "# This file: sbatch runs a copy of it.\n"
-                                "script=$(cd \"$(dirname -- \"$0\")\" && pwd)/$(basename -- \"$0\")\n"
-                                "cd -- \"$root\" || exit 3\n";
-
-static const char need_file[] =
-    "    [ -f \"$script\" ] || {\n"
-    "        echo 'job.sh: write this script to a file first, which tasks can run' >&2\n"
-    "        exit 2\n"
-    "    }\n";
-
-static const char *merge_case(const struct farm_plan *plan) {
-    return plan->part ? "merge)\n    merge\n    exit \"$status\"\n    ;;\n" : "";
-}
-
-// Indices of an array are below MaxArraySize too: each array begins at a task of its own.
-static const char arrays_function[] =
-    "# arrays LIST MOST: lines 'FIRST INDICES' for the arrays of at most MOST tasks that a list such as "
-    "3,8-9 "
-    "becomes.\n"
-    "arrays() {\n"
-    "    printf '%s\\n' \"$1\" | tr , '\\n' | awk -F- -v most=\"$2\" '{\n"
-    "        end = NF > 1 ? $2 + 0 : $1 + 0\n"
-    "        for (i = $1 + 0; i <= end; i = last + 1) {\n"
-    "            array = int(i / most)\n"
-    "            last = (array + 1) * most - 1\n"
-    "            last = last < end ? last : end\n"
-    "            first = array * most\n"
-    "            range = last > i ? (i - first) \"-\" (last - first) : i - first\n"
-    "            indices[array] = indices[array] (indices[array] == \"\" ? \"\" : \",\") range\n"
-    "            arrays = array > arrays ? array : arrays\n"
-    "        }\n"
-    "    }\n"
-    "    END {\n"
-    "        for (i = 0; i <= arrays; i++)\n"
-    "            if (indices[i] != \"\")\n"
-    "                print i * most, indices[i]\n"
-    "    }'\n"
-    "}\n\n";
-
-static void write_slurm(const struct cli_options *o, const struct farm_plan *plan, struct strbuf *out) {
-    strbuf_cstr(out, arrays_function);
-    strbuf_cstr(out, "submit() {\n");
-    strbuf_cstr(out, need_file);
-    // Slurm replaces words after '%' in names of files: a percent sign is two.
-    strbuf_cstr(out, plan->folder ? "    mkdir -p \"$log\" || exit 3\n"
-                                    "    text=$(printf '%s' \"$log\" | sed 's/%/%%/g')\n"
-                                  : "    text=.\n");
-    strbuf_format(
-        out,
-        "    most=$(scontrol show config 2>/dev/null | sed -n 's/^MaxArraySize *= *\\([0-9]*\\).*/\\1/p')\n"
-        "    [ \"${most:-0}\" -gt 0 ] || most=1001\n"
-        "    list=${1:-0-$((tasks - 1))}\n"
-        "    jobs=\n"
-        "    # shellcheck disable=SC2046 # words\n"
-        "    set -- $(arrays \"$list\" \"$most\")\n"
-        "    while [ $# -ge 2 ]; do\n"
-        "        job=$(sbatch --parsable --job-name=glint-farm --array=\"$2\" --requeue \\\n"
-        "            --open-mode=append --signal=B:TERM@30 --ntasks=1%s \\\n"
-        "            --output=\"$text/slurm-%%A_%%a.txt\" \"$script\" from \"$1\") || exit\n"
-        "        jobs=$jobs:${job%%%%;*}\n"
-        "        echo \"job ${job%%%%;*}: tasks $2 from $1 on\"\n"
-        "        shift 2\n"
-        "    done\n",
-        o->farm.gpus ? " --gpus-per-task=1" : "");
-    if (plan->part)
-        strbuf_cstr(
-            out,
-            "    # After all tasks, even failed ones: it joins what is there, and names what is not.\n"
-            "    joined=$(sbatch --parsable --job-name=glint-merge --dependency=\"afterany$jobs\" "
-            "--requeue \\\n"
-            "        --open-mode=append --ntasks=1 --output=\"$text/slurm-%j.txt\" \"$script\" merge) || "
-            "exit\n"
-            "    echo \"job ${joined%%;*}: the merge\"\n");
-    strbuf_cstr(out, "}\n\n");
-    strbuf_cstr(out, own_place);
-    strbuf_format(out,
-                  "case ${1:-submit} in\n"
-                  "submit) submit \"${2:-}\" ;;\n"
-                  "task | from)\n"
-                  "    if [ \"$1\" = from ]; then\n"
-                  "        task $(($2 + SLURM_ARRAY_TASK_ID))\n"
-                  "    else\n"
-                  "        task \"${2:-$SLURM_ARRAY_TASK_ID}\"\n"
-                  "    fi\n"
-                  "    if [ \"$status\" -eq 75 ] && [ -n \"${SLURM_ARRAY_JOB_ID:-}\" ]; then\n"
-                  "        scontrol requeue \"${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID\"\n"
-                  "    fi\n"
-                  "    exit \"$status\"\n"
-                  "    ;;\n"
-                  "%s*)\n"
-                  "    echo 'usage: sh job.sh [submit [TASKS]]' >&2\n"
-                  "    exit 2\n"
-                  "    ;;\n"
-                  "esac\n",
-                  merge_case(plan));
-}
-
-static void write_parallel(const struct cli_options *o, const struct farm_plan *plan, struct strbuf *out) {
-    strbuf_cstr(out, each_function);
-    strbuf_cstr(out, "submit() {\n");
-    strbuf_cstr(out, need_file);
-    strbuf_cstr(out, plan->folder ? "    mkdir -p \"$log\" || exit 3\n    joblog=$log/parallel.txt\n"
-                                  : "    joblog=$script.joblog\n");
-    // A task uses all processors of its host, or a GPU.
-    strbuf_cstr(out,
-                "    # Tasks that are named are done whatever the log of before says.\n"
-                "    if [ -n \"$1\" ]; then\n"
-                "        joblog=$joblog.named\n"
-                "        rm -f -- \"$joblog\"\n"
-                "    fi\n"
-                "    each \"${1:-0-$((tasks - 1))}\" |\n"
-                "        parallel --quote --will-cite --joblog \"$joblog\" --resume-failed --retries 3 \\\n");
-    strbuf_format(out, "            --termseq TERM,30000,KILL,1000 --jobs %d",
-                  o->farm.gpus ? (int)o->farm.gpus : 1);
-    if (o->farm.sshlogin)
-        strbuf_cstr(out, " --sshlogin "), farm_quote(out, o->farm.sshlogin);
-    strbuf_cstr(out,
-                " \\\n            env GLINT=\"$glint\" GLINT_FARM_ROOT=\"$root\" sh \"$script\" task {}");
-    strbuf_cstr(out, o->farm.gpus ? " '{%}'\n" : "\n");
-    strbuf_cstr(out, "    failed=$?\n");
-    strbuf_cstr(out, plan->part ? "    merge\n"
-                                  "    [ \"$failed\" -ne 0 ] || failed=$status\n"
-                                : "");
-    strbuf_cstr(out, "    exit \"$failed\"\n}\n\n");
-    strbuf_cstr(out, own_place);
-    strbuf_format(out,
-                  "case ${1:-submit} in\n"
-                  "submit) submit \"${2:-}\" ;;\n"
-                  "task)\n"
-                  "    task \"$2\"%s\n"
-                  "    exit \"$status\"\n"
-                  "    ;;\n"
-                  "%s"
-                  "*)\n"
-                  "    echo 'usage: sh job.sh [submit [TASKS]]' >&2\n"
-                  "    exit 2\n"
-                  "    ;;\n"
-                  "esac\n",
-                  o->farm.gpus ? " \"$(($3 - 1))\"" : "", merge_case(plan));
-}
-
 // ---- Kubernetes
 
 // The script as a block of YAML. Kubernetes reads "$$" as one '$', and $(NAME) as a variable: each is
@@ -269,7 +118,7 @@ static void write_container(const struct cli_options *o, const struct farm_plan 
 static void write_k8s(struct cli *cli, const struct farm_plan *plan, struct strbuf *out) {
     struct strbuf script;
     strbuf_init(&script);
-    farm_write_tasks(cli, plan, &script);
+    farm_write_tasks(&cli->options, plan, &script);
     strbuf_format(&script,
                   "cd -- \"$root\" || exit 3\n"
                   "case $1 in\n"
@@ -305,6 +154,6 @@ void farm_write_script(struct cli *cli, const struct farm_plan *plan, struct str
         write_k8s(cli, plan, out);
         return;
     }
-    farm_write_tasks(cli, plan, out);
-    (plan->engine == FARM_SLURM ? write_slurm : write_parallel)(&cli->options, plan, out);
+    farm_write_tasks(&cli->options, plan, out);
+    farm_write_engine(&cli->options, plan, out);
 }

@@ -3,9 +3,7 @@
 
 #include "core/number.h"
 
-// What makes a task go on where one before it ended: what is written is left out, and a signal ends the
-// render with status 75 and a checkpoint.
-#define GO_ON " --skip-done --resume"
+#include <string.h>
 
 void farm_quote(struct strbuf *out, const char *word) {
     strbuf_char(out, '\'');
@@ -15,29 +13,6 @@ void farm_quote(struct strbuf *out, const char *word) {
         else
             strbuf_char(out, *p);
     strbuf_char(out, '\'');
-}
-
-static void set(struct strbuf *out, const char *name, const char *value) {
-    strbuf_format(out, "%s=", name);
-    farm_quote(out, value);
-    strbuf_char(out, '\n');
-}
-
-static void write_settings(const struct farm_plan *plan, struct strbuf *out) {
-    strbuf_cstr(
-        out, "# The program, and the folder that all names here are relative to: the same on all machines.\n"
-             "glint=${GLINT:-glint}\n");
-    set(out, "root", plan->root);
-    strbuf_cstr(out, "root=${GLINT_FARM_ROOT:-$root}\n");
-    set(out, "output", plan->output);
-    if (plan->part)
-        set(out, "part", plan->part);
-    if (plan->folder)
-        strbuf_cstr(out, "log="), farm_quote(out, plan->folder), strbuf_cstr(out, "/log\n");
-    if (plan->has_frames)
-        strbuf_format(out, "first=%d last=%d step=%d chunk=%u", (int)plan->first, (int)plan->last,
-                      (int)plan->step, plan->chunk);
-    strbuf_format(out, "%stiles=%u tasks=%u\n\n", plan->has_frames ? " " : "", plan->tiles, plan->tasks);
 }
 
 static void add_text(struct strbuf *out, const char *option, str text) {
@@ -85,89 +60,130 @@ static void add_options(const struct cli_options *o, struct strbuf *out) {
         add_text(out, "asset-path", o->asset_paths.items[i]);
 }
 
-// A signal is for the program, whose end is waited for.
-static const char run_function[] =
-    "# Runs a command, and passes it the signals that this shell gets. Its exit status is in $status.\n"
-    "run() {\n"
-    "    \"$@\" &\n"
-    "    child=$!\n"
-    "    trap 'kill -TERM \"$child\" 2>/dev/null' TERM INT\n"
-    "    wait \"$child\"\n"
-    "    status=$?\n"
-    "    while kill -0 \"$child\" 2>/dev/null; do\n"
-    "        wait \"$child\"\n"
-    "        status=$?\n"
-    "    done\n"
-    "    trap - TERM INT\n"
-    "}\n\n";
+// ---- templates: shell that is written as shell, with words in @ and lines with a condition
 
-static void write_note(const struct farm_plan *plan, struct strbuf *out) {
-    strbuf_cstr(out, "# note TASK: a line of JSON that says how the task ended; each attempt adds one.\n"
-                     "note() {\n"
-                     "    host=$(uname -n | tr -cd 'A-Za-z0-9._-')\n"
-                     "    line=$(printf '{\"task\": %d, \"tile\": %d, ");
-    strbuf_cstr(out, plan->has_frames ? "\"first\": %d, \"last\": %d, " : "");
-    strbuf_cstr(out, "\"host\": \"%s\", \"began\": %d, \"seconds\": %d, \"status\": %d}' \\\n"
-                     "        \"$1\" \"$tile\" ");
-    strbuf_cstr(out, plan->has_frames ? "\"$begin\" \"$end\" " : "");
-    strbuf_cstr(out, "\"${SLURMD_NODENAME:-$host}\" \"$began\" \"$(($(date +%s) - began))\" \"$status\")\n");
-    strbuf_cstr(out, plan->folder
-                         ? "    mkdir -p \"$log\" && printf '%s\\n' \"$line\" >>\"$log/$1.jsonl\"\n}\n\n"
-                         : "    printf '%s\\n' \"$line\"\n}\n\n");
+extern const char farm_tasks_sh[], farm_slurm_sh[], farm_parallel_sh[]; // *.sh.in of this folder
+
+enum word {
+    WORD_ROOT,
+    WORD_OUTPUT,
+    WORD_PART,
+    WORD_FOLDER,
+    WORD_FIRST,
+    WORD_LAST,
+    WORD_STEP,
+    WORD_CHUNK,
+    WORD_TILES,
+    WORD_TASKS,
+    WORD_OPTIONS,
+    WORD_CODING,
+    WORD_SCENE,
+    WORD_JOBS,
+    WORD_HOSTS,
+    WORDS,
+};
+static const char *const word_names[WORDS] = {"@root@",    "@output@", "@part@",  "@folder@", "@first@",
+                                              "@last@",    "@step@",   "@chunk@", "@tiles@",  "@tasks@",
+                                              "@options@", "@coding@", "@scene@", "@jobs@",   "@hosts@"};
+
+struct filling {
+    const struct farm_plan *plan;
+    bool gpus;
+    struct strbuf words[WORDS];
+};
+
+static bool holds(const struct filling *f, str condition) {
+    const bool is_not = str_starts_with(condition, STR("no-"));
+    const str name = is_not ? str_slice(condition, 3, condition.len) : condition;
+    const bool is = str_equal(name, STR("frames"))   ? f->plan->has_frames
+                    : str_equal(name, STR("parts"))  ? f->plan->part != NULL
+                    : str_equal(name, STR("folder")) ? f->plan->folder != NULL
+                                                     : f->gpus;
+    return is != is_not;
 }
 
-static void write_task(struct cli *cli, const struct farm_plan *plan, struct strbuf *out) {
-    const struct cli_options *o = &cli->options;
-    strbuf_cstr(
-        out,
-        plan->has_frames
-            ? "# task N: of tile N % tiles + 1 the chunk N / tiles of frames. What is done is left out.\n"
-            : "# task N: tile N + 1. What is done is left out.\n");
-    strbuf_cstr(out, "task() {\n    tile=$(($1 % tiles + 1))\n");
-    if (plan->has_frames)
-        strbuf_cstr(out, "    begin=$((first + chunk * step * ($1 / tiles)))\n"
-                         "    end=$((begin + (chunk - 1) * step))\n"
-                         "    [ \"$end\" -le \"$last\" ] || end=$last\n");
-    strbuf_cstr(out, "    began=$(date +%s)\n    run \"$glint\" render" GO_ON);
-    add_options(o, out);
-    if (plan->part == NULL)
-        add_coding(o, out);
+static void fill_words(const struct filling *f, str line, struct strbuf *out) {
+    for (size_t at = 0; at < line.len;) {
+        int word = 0;
+        while (word < WORDS && !str_starts_with(str_slice(line, at, line.len), str_from(word_names[word])))
+            word++;
+        if (word < WORDS)
+            strbuf_str(out, strbuf_view(&f->words[word]));
+        else
+            strbuf_char(out, line.ptr[at]);
+        at += word < WORDS ? strlen(word_names[word]) : 1;
+    }
+    strbuf_char(out, '\n');
+}
+
+// A line that ends with " #@ A no-B" is there where A holds and B does not.
+static void fill_line(const struct filling *f, str line, struct strbuf *out) {
+    const str mark = STR(" #@ ");
+    size_t end = 0;
+    while (end < line.len && !str_starts_with(str_slice(line, end, line.len), mark))
+        end++;
+    for (size_t at = end + mark.len; at < line.len;) {
+        size_t stop = at;
+        while (stop < line.len && line.ptr[stop] != ' ')
+            stop++;
+        if (!holds(f, str_slice(line, at, stop)))
+            return;
+        at = stop + 1;
+    }
+    fill_words(f, str_slice(line, 0, end), out);
+}
+
+static void fill(const struct filling *f, const char *template, struct strbuf *out) {
+    for (const char *line = template; *line;) {
+        const size_t length = strcspn(line, "\n");
+        fill_line(f, (str){line, length}, out);
+        line += length + (line[length] == '\n');
+    }
+}
+
+static void begin_filling(struct filling *f, const struct cli_options *o, const struct farm_plan *plan) {
+    *f = (struct filling){.plan = plan, .gpus = o->farm.gpus};
+    for (int i = 0; i < WORDS; i++)
+        strbuf_init(&f->words[i]);
+    struct strbuf *const w = f->words;
+    farm_quote(&w[WORD_ROOT], plan->root);
+    farm_quote(&w[WORD_OUTPUT], plan->output);
+    farm_quote(&w[WORD_PART], plan->part ? plan->part : "");
+    farm_quote(&w[WORD_FOLDER], plan->folder ? plan->folder : "");
+    farm_quote(&w[WORD_SCENE], plan->scene);
+    strbuf_format(&w[WORD_FIRST], "%d", (int)plan->first);
+    strbuf_format(&w[WORD_LAST], "%d", (int)plan->last);
+    strbuf_format(&w[WORD_STEP], "%d", (int)plan->step);
+    strbuf_format(&w[WORD_CHUNK], "%u", plan->chunk);
+    strbuf_format(&w[WORD_TILES], "%u", plan->tiles);
+    strbuf_format(&w[WORD_TASKS], "%u", plan->tasks);
+    add_options(o, &w[WORD_OPTIONS]);
+    add_coding(o, plan->part ? &w[WORD_CODING] : &w[WORD_OPTIONS]);
     if (o->farm.gpus && plan->engine == FARM_PARALLEL)
-        strbuf_cstr(out, " --device \"$2\"");
-    strbuf_cstr(out, " \\\n       ");
-    if (plan->has_frames)
-        strbuf_cstr(out, " --frames \"$begin..$end:$step\"");
-    strbuf_cstr(out, plan->part ? " --tile \"$tile/$tiles\" -o \"$part$tile.part\"" : " -o \"$output\"");
-    strbuf_cstr(out, " -- ");
-    farm_quote(out, plan->scene);
-    strbuf_cstr(out, "\n    note \"$1\"\n}\n\n");
+        strbuf_cstr(&w[WORD_OPTIONS], " --device \"$2\"");
+    // A task uses all processors of its host, or a GPU.
+    strbuf_format(&w[WORD_JOBS], "%d", o->farm.gpus ? (int)o->farm.gpus : 1);
+    if (o->farm.sshlogin)
+        strbuf_cstr(&w[WORD_HOSTS], " --sshlogin "), farm_quote(&w[WORD_HOSTS], o->farm.sshlogin);
 }
 
-static void write_merge(struct cli *cli, const struct farm_plan *plan, struct strbuf *out) {
-    if (!plan->part)
-        return;
-    strbuf_cstr(out, "# merge: joins the tiles of all pictures.\n"
-                     "merge() {\n"
-                     "    tile=1\n"
-                     "    set --\n"
-                     "    while [ \"$tile\" -le \"$tiles\" ]; do\n"
-                     "        set -- \"$@\" \"$part$tile.part\"\n"
-                     "        tile=$((tile + 1))\n"
-                     "    done\n"
-                     "    run \"$glint\" merge --skip-done");
-    add_coding(&cli->options, out);
-    if (plan->has_frames)
-        strbuf_cstr(out, " --frames \"$first..$last:$step\"");
-    strbuf_cstr(out, " -- \"$output\" \"$@\"\n}\n\n");
+static void end_filling(struct filling *f, struct strbuf *out) {
+    for (int i = 0; i < WORDS; i++) {
+        out->failed |= f->words[i].failed;
+        strbuf_finish(&f->words[i]);
+    }
 }
 
-void farm_write_tasks(struct cli *cli, const struct farm_plan *plan, struct strbuf *out) {
-    strbuf_cstr(
-        out,
-        "# shellcheck disable=SC2016 # names are in quotes so that nothing in them is replaced\nset -u\n");
-    write_settings(plan, out);
-    strbuf_cstr(out, run_function);
-    write_note(plan, out);
-    write_task(cli, plan, out);
-    write_merge(cli, plan, out);
+void farm_write_tasks(const struct cli_options *options, const struct farm_plan *plan, struct strbuf *out) {
+    struct filling f;
+    begin_filling(&f, options, plan);
+    fill(&f, farm_tasks_sh, out);
+    end_filling(&f, out);
+}
+
+void farm_write_engine(const struct cli_options *options, const struct farm_plan *plan, struct strbuf *out) {
+    struct filling f;
+    begin_filling(&f, options, plan);
+    fill(&f, plan->engine == FARM_SLURM ? farm_slurm_sh : farm_parallel_sh, out);
+    end_filling(&f, out);
 }
