@@ -24,7 +24,8 @@ if(GLINT_STATIC)
 endif()
 
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes
-                    -Wpointer-arith -Wwrite-strings -Wformat=2)
+                    -Wpointer-arith -Wwrite-strings -Wformat=2
+                    -Werror=switch) # a switch without default lists what a new enumerator lacks
 # What is released names no folder of the machine that built it, and two folders build the same bytes.
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
   add_compile_options(-ffile-prefix-map=${CMAKE_BINARY_DIR}/= -ffile-prefix-map=${CMAKE_SOURCE_DIR}/=)

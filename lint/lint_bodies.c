@@ -2,6 +2,7 @@
 #include "lint/lint_parts.h"
 
 #include "grammar/ir.h"
+#include "scene/shape.h"
 
 // ---- materials
 
@@ -57,7 +58,7 @@ static void take_mesh(struct lint *lint, struct lint_body *body) {
 
 static void collect_body(struct lint *lint, struct lint_body *body, const struct scene_body *is) {
     *body = (struct lint_body){.is = is, .box = {is->lower, is->upper}};
-    if (is->shape == SCENE_MESH && !is->mesh)
+    if (!shape_is_there(is))
         return;
     weigh(lint, body);
     if (is->mesh)
@@ -74,12 +75,17 @@ uint32_t lint_flat_triangles(const struct lint_body *body, struct lint_triangle 
 
 int lint_winding(struct lint *lint, const struct lint_body *body, vec3 point) {
     const affine3 *map = &body->is->object_to_world;
-    if (body->is->shape == SCENE_SPHERE)
+    switch (body->is->shape) {
+    case SCENE_SPHERE:
         return vec3_length(vec3_sub(point, map->offset)) < body->is->radius;
-    if (!body->mesh)
-        return 0;
-    affine3 back = transform_inverse(*map);
-    return lint_tree_winding(lint_tree_of(lint, body->mesh), affine3_apply(back, point));
+    case SCENE_PARALLELOGRAM:
+        break;
+    case SCENE_MESH:
+        return !body->mesh ? 0
+                           : lint_tree_winding(lint_tree_of(lint, body->mesh),
+                                               affine3_apply(transform_inverse(*map), point));
+    }
+    return 0;
 }
 
 void lint_collect(struct lint *lint) {

@@ -8,6 +8,7 @@
 #include "grammar/schema.h"
 #include "lint/lint.h"
 #include "lint/tree.h"
+#include "scene/shape.h"
 #include "scene/transform.h"
 #include "scene/view.h"
 
@@ -84,7 +85,7 @@ enum {
 uint32_t lint_flat_triangles(const struct lint_body *body, struct lint_triangle out[LINT_FLAT_TRIANGLES]);
 // Whether there is anything of the body: not where its mesh could not be loaded.
 static inline bool lint_is_there(const struct lint_body *body) {
-    return body->is->shape != SCENE_MESH || body->mesh;
+    return shape_is_there(body->is);
 }
 
 // Places and words. In lint_places.c.

@@ -82,19 +82,26 @@ static void intersect_body(const struct lint *lint, uint32_t index, vec3 origin,
     struct lint_triangle flat[LINT_FLAT_TRIANGLES];
     double t;
     int side;
-    for (uint32_t i = 0, count = lint_flat_triangles(body, flat); i < count; i++)
-        if (lint_triangle_ray(&flat[i], origin, direction, &t, &side)) {
-            add_hit(hits, t);
-            break; // the other one shares the edge that the ray may go through
-        }
-    if (body->is->shape == SCENE_SPHERE) {
+    switch (body->is->shape) {
+    case SCENE_SPHERE:
         intersect_sphere(hits, body->is, origin, direction);
-    } else if (body->mesh) {
+        break;
+    case SCENE_PARALLELOGRAM:
+        for (uint32_t i = 0, count = lint_flat_triangles(body, flat); i < count; i++)
+            if (lint_triangle_ray(&flat[i], origin, direction, &t, &side)) {
+                add_hit(hits, t);
+                break; // the other one shares the edge that the ray may go through
+            }
+        break;
+    case SCENE_MESH:
+        if (!body->mesh)
+            break;
         hits->tree = &body->mesh->tree;
         affine3 back = transform_inverse(body->is->object_to_world);
         hits->origin = affine3_apply(back, origin);
         hits->direction = mat3_apply(back.linear, direction);
         lint_tree_on_ray(hits->tree, hits->origin, hits->direction, intersect_leaf, hits);
+        break;
     }
 }
 

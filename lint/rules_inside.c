@@ -3,6 +3,7 @@
 #include "lint/lint_parts.h"
 
 #include "grammar/ir.h"
+#include "scene/shape.h"
 
 enum {
     WORK_MAX = 8000000, // bodies against trees of cameras, or lights: further ones are not looked at
@@ -106,12 +107,18 @@ static bool measure(void *context, uint32_t first, uint32_t count) {
 static bool is_on(struct lint *lint, const struct lint_body *body, vec3 point, double near,
                   uint32_t *triangle) {
     const affine3 *map = &body->is->object_to_world;
-    if (body->is->shape == SCENE_SPHERE)
-        return fabs(vec3_length(vec3_sub(point, map->offset)) - body->is->radius) <= near;
     struct lint_triangle flat[LINT_FLAT_TRIANGLES];
-    for (uint32_t i = 0, count = lint_flat_triangles(body, flat); i < count; i++)
-        if (lint_triangle_distance(&flat[i], point) <= near)
-            return true;
+    switch (body->is->shape) {
+    case SCENE_SPHERE:
+        return fabs(vec3_length(vec3_sub(point, map->offset)) - body->is->radius) <= near;
+    case SCENE_PARALLELOGRAM:
+        for (uint32_t i = 0, count = lint_flat_triangles(body, flat); i < count; i++)
+            if (lint_triangle_distance(&flat[i], point) <= near)
+                return true;
+        return false;
+    case SCENE_MESH:
+        break;
+    }
     if (!body->mesh)
         return false;
     struct nearest_face nearest = {lint_tree_of(lint, body->mesh), *map, point, INFINITY, 0};
@@ -148,7 +155,7 @@ static bool reaches_out(const struct ir_light *light, const struct lint_body *bo
     const vec3 p = light->position, lower = body->box.lower, upper = body->box.upper;
     if (!(radius > 0))
         return false;
-    if (body->is->shape == SCENE_SPHERE)
+    if (shape_traits(body->is->shape).items == SHAPE_BALL)
         return vec3_length(vec3_sub(p, body->is->object_to_world.offset)) + radius >= body->is->radius - near;
     return p.x - radius < lower.x || p.y - radius < lower.y || p.z - radius < lower.z ||
            p.x + radius > upper.x || p.y + radius > upper.y || p.z + radius > upper.z;

@@ -4,6 +4,7 @@
 #include "core/number.h"
 #include "grammar/ir.h"
 #include "scene/media.h"
+#include "scene/shape.h"
 
 // Growth over all bounces below this is only an error in the last digit of each weight.
 static const double GROWTH_MIN = 2;
@@ -102,7 +103,7 @@ static struct cycle worst_cycle(const struct lint *lint) {
     const struct lint_body *second = NULL;
     for (uint32_t i = 0; i < lint->body_count; i++) {
         const struct lint_body *body = &lint->bodies[i];
-        bool alone = body->is->shape == SCENE_MESH || (body->is->closed && body->refraction > 0);
+        bool alone = shape_traits(body->is->shape).sees_itself || (body->is->closed && body->refraction > 0);
         if (alone && body->gain * body->gain > worst.gain)
             worst = (struct cycle){body, body, body->gain * body->gain};
         if (!first || body->gain > first->gain) {

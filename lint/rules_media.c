@@ -12,6 +12,7 @@
 
 #include "grammar/ir.h"
 #include "scene/media.h"
+#include "scene/shape.h"
 
 #include <stdlib.h>
 
@@ -247,14 +248,25 @@ static bool is_same_place(const struct lint_body *a, const struct lint_body *b) 
     return same;
 }
 
+// Of media, which are spheres and meshes.
+static bool is_sphere(const struct lint_body *body) {
+    switch (body->is->shape) {
+    case SCENE_SPHERE:
+        return true;
+    case SCENE_PARALLELOGRAM:
+    case SCENE_MESH:
+        break;
+    }
+    return false;
+}
+
 static enum relation relation_of(const struct pair *p) {
     if (is_same_place(p->a, p->b))
         return APART;
-    if (p->a->is->shape == SCENE_SPHERE && p->b->is->shape == SCENE_SPHERE)
-        return spheres(p);
-    if (p->a->is->shape == SCENE_SPHERE)
-        return sphere_and_mesh(p);
-    if (p->b->is->shape != SCENE_SPHERE)
+    const bool is_ball = is_sphere(p->a), is_other = is_sphere(p->b);
+    if (is_ball)
+        return is_other ? spheres(p) : sphere_and_mesh(p);
+    if (!is_other)
         return meshes(p);
     const struct pair turned = {p->media, p->b, p->a, p->tolerance};
     enum relation relation = sphere_and_mesh(&turned);
@@ -305,18 +317,11 @@ static int compare_overlaps(const void *left, const void *right) {
     return x->other < y->other ? -1 : x->other > y->other;
 }
 
-static double volume_of(const struct lint_body *body) {
-    const double r = body->is->radius;
-    if (body->is->shape == SCENE_SPHERE)
-        return 4.0 / 3 * PI * r * r * r;
-    return fabs(body->mesh->mesh->volume * mat3_determinant(body->is->object_to_world.linear));
-}
-
 // What a drink is to its glass, and to the ice in it: larger than what it gives way to.
 static bool gives_way(const struct media *media, const struct overlap *first, uint32_t count) {
     bool all = media->around[first->body - media->lint->bodies] == 0;
     for (uint32_t i = 0; i < count && all; i++)
-        all = volume_of(first->body) > volume_of(first[i].other);
+        all = shape_volume(first->body->is) > shape_volume(first[i].other->is);
     return all;
 }
 

@@ -143,7 +143,8 @@ static bool meet_sheet(const struct looking *l, struct view_ray ray, struct spot
     return down != 0 && t > 0 && a >= 0 && a <= 1 && b >= 0 && b <= 1;
 }
 
-static void look_at_shape(struct looking *l) {
+static void look_at_shape(struct looking *l,
+                          bool (*meet)(const struct looking *l, struct view_ray ray, struct spot *s)) {
     const struct ir_image *image = l->lint->input->image;
     const uint32_t columns = image->width < COLUMNS ? (uint32_t)image->width : COLUMNS;
     const uint32_t rows =
@@ -153,9 +154,7 @@ static void look_at_shape(struct looking *l) {
         const struct view_ray ray = view_ray_at(l->camera, l->aspect, x, y);
         struct spot s = {.material = l->body->is->materials[0],
                          .pixels = (double)image->width * image->height / (columns * rows)};
-        const bool hits =
-            l->body->is->shape == SCENE_SPHERE ? meet_sphere(l, ray, &s) : meet_sheet(l, ray, &s);
-        if (hits && view_sight_of(l->camera, l->aspect, s.point, &s.sight))
+        if (meet(l, ray, &s) && view_sight_of(l->camera, l->aspect, s.point, &s.sight))
             add_spot(l, &s);
     }
 }
@@ -187,9 +186,15 @@ static void look_at_triangle(struct looking *l, uint32_t triangle, double stands
 
 static void look_at(struct looking *l) {
     const uint32_t count = l->body->is->triangle_count;
-    if (l->body->is->shape != SCENE_MESH) {
-        look_at_shape(l);
+    switch (l->body->is->shape) {
+    case SCENE_SPHERE:
+        look_at_shape(l, meet_sphere);
         return;
+    case SCENE_PARALLELOGRAM:
+        look_at_shape(l, meet_sheet);
+        return;
+    case SCENE_MESH:
+        break;
     }
     const uint32_t step = count / TRIANGLES_MOST + 1;
     for (uint32_t t = 0; l->body->mesh && t < count; t += step)

@@ -1,4 +1,5 @@
 #include "measure/hit_errors.h"
+#include "scene/shape.h"
 
 #include <math.h>
 
@@ -38,7 +39,7 @@ static bool is_same_face(const struct comparing *c, const struct hit_pixel *d, c
     if (d->body != r->body)
         return false;
     const bool halves =
-        r->body < c->scene->body_count && c->scene->bodies[r->body].shape == SCENE_PARALLELOGRAM;
+        r->body < c->scene->body_count && shape_traits(c->scene->bodies[r->body].shape).is_flat;
     return halves || d->triangle == r->triangle;
 }
 

@@ -8,6 +8,7 @@
 #include "picture/write/image.h"
 #include "reference/reference.h"
 #include "scene/scene.h"
+#include "scene/shape.h"
 #include "tracer/render/render.h"
 
 #include <math.h>
@@ -339,7 +340,7 @@ static void finish_small(struct small *small) {
 static uint64_t size_of(const struct scene *scene) {
     uint64_t sum = 0;
     for (uint32_t i = 0; i < scene->body_count; i++)
-        sum += scene->bodies[i].shape == SCENE_SPHERE ? 1 : scene->bodies[i].triangle_count;
+        sum += shape_item_count(&scene->bodies[i]);
     return sum;
 }
 

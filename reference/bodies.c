@@ -1,5 +1,6 @@
 // From the scene's bodies and materials to those that rays are traced against.
 #include "reference/parts.h"
+#include "scene/shape.h"
 #include "scene/transform.h"
 
 static struct material make_material(const struct scene_material *from) {
@@ -27,7 +28,7 @@ static struct material make_material(const struct scene_material *from) {
 static struct body make_body(const struct reference *r, const struct scene_body *from) {
     struct body body = {.is = from,
                         .object_to_world = transform_relative(from->object_to_world, r->origin),
-                        .primitive_count = from->shape == SCENE_SPHERE ? 1 : from->triangle_count,
+                        .primitive_count = shape_item_count(from),
                         .instance = NO_INSTANCE};
     body.is_medium = scene_is_medium(r->input.scene, from);
     if (body.is_medium)
@@ -89,13 +90,16 @@ static void put(const struct reference *r, double out[3], vec3 v) {
 bool reference_make_primitive(const struct reference *r, const struct body *body, uint32_t triangle,
                               struct primitive *out) {
     *out = (struct primitive){.body = (uint32_t)(body - r->bodies), .triangle = triangle};
-    if (body->is->shape == SCENE_SPHERE) {
+    vec3 corners[3];
+    switch (shape_traits(body->is->shape).items) {
+    case SHAPE_BALL:
         out->is_sphere = true;
         put(r, out->v[0], body->object_to_world.offset);
         out->v[1][0] = reference_stored(r, body->is->radius);
         return true;
+    case SHAPE_TRIANGLES:
+        break;
     }
-    vec3 corners[3];
     scene_corners(body->is, &body->object_to_world, triangle, corners);
     for (int k = 0; k < 3; k++)
         put(r, out->v[k], corners[k]);

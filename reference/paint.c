@@ -9,6 +9,7 @@
 #include "reference/parts.h"
 
 #include "grammar/ir.h"
+#include "scene/shape.h"
 
 enum {
     TAPS_MAX = 15, // odd
@@ -93,31 +94,45 @@ static struct place sphere_place(vec3 arm) {
     return (struct place){0.5 + atan2(arm.z, arm.x) / (2 * PI), 1 - atan2(around, arm.y) / PI};
 }
 
-static struct place triangle_place(const struct scene_body *body, const struct surface *s,
-                                   const double b[3]) {
-    if (body->shape == SCENE_PARALLELOGRAM)
-        return (struct place){s->triangle ? b[1] : b[1] + b[2], s->triangle ? b[1] + b[2] : b[2]};
+// Of a surface's coordinates (u, v).
+static struct place surface_place(const struct scene_body *body, const struct surface *s, const double b[3],
+                                  vec3 arm) {
     struct ir_pair at[3];
-    scene_coordinates(body, s->triangle, at);
-    return (struct place){b[0] * at[0].u + b[1] * at[1].u + b[2] * at[2].u,
-                          b[0] * at[0].v + b[1] * at[1].v + b[2] * at[2].v};
+    switch (body->shape) {
+    case SCENE_SPHERE:
+        break;
+    case SCENE_PARALLELOGRAM:
+        return (struct place){s->triangle ? b[1] : b[1] + b[2], s->triangle ? b[1] + b[2] : b[2]};
+    case SCENE_MESH:
+        scene_coordinates(body, s->triangle, at);
+        return (struct place){b[0] * at[0].u + b[1] * at[1].u + b[2] * at[2].u,
+                              b[0] * at[0].v + b[1] * at[1].v + b[2] * at[2].v};
+    }
+    return sphere_place(arm);
+}
+
+vec3 reference_checker_place(const struct scene_body *body, const struct surface *s, const double b[3],
+                             vec3 arm) {
+    const mat3 edges = body->object_to_world.linear;
+    vec3 corners[3];
+    switch (body->shape) {
+    case SCENE_SPHERE:
+        break;
+    case SCENE_PARALLELOGRAM:
+        return (vec3){(s->triangle ? b[1] : b[1] + b[2]) * vec3_length(mat3_column(edges, 0)),
+                      (s->triangle ? b[1] + b[2] : b[2]) * vec3_length(mat3_column(edges, 1)), 0};
+    case SCENE_MESH:
+        for (int k = 0; k < 3; k++)
+            corners[k] = vec3_mul(body->mesh->positions[body->mesh->triangles[s->triangle].corners[k]], b[k]);
+        return vec3_add(vec3_add(corners[0], corners[1]), corners[2]);
+    }
+    return arm;
 }
 
 // Where a checker's cells are counted, in cells.
 static vec3 checker_cell(const struct scene_body *body, const struct surface *s, const double b[3], vec3 arm,
                          double size) {
-    vec3 at = arm;
-    if (body->shape == SCENE_PARALLELOGRAM) {
-        const struct place p = triangle_place(body, s, b);
-        const mat3 edges = body->object_to_world.linear;
-        at = (vec3){p.u * vec3_length(mat3_column(edges, 0)), p.v * vec3_length(mat3_column(edges, 1)), 0};
-    } else if (body->shape == SCENE_MESH) {
-        at = (vec3){0, 0, 0};
-        for (int k = 0; k < 3; k++)
-            at = vec3_add(
-                at, vec3_mul(body->mesh->positions[body->mesh->triangles[s->triangle].corners[k]], b[k]));
-    }
-    return vec3_mul(at, 1 / size);
+    return vec3_mul(reference_checker_place(body, s, b, arm), 1 / size);
 }
 
 // ---- differences
@@ -149,8 +164,7 @@ static struct spot moved(const struct spot *spot, vec3 axis, double by) {
 }
 
 static struct place place_at(const struct spot *spot) {
-    return spot->primitive->is_sphere ? sphere_place(spot->arm)
-                                      : triangle_place(spot->body, spot->s, spot->b);
+    return surface_place(spot->body, spot->s, spot->b, spot->arm);
 }
 
 // How near to a sphere's axis differences are taken, radius 1.
@@ -350,7 +364,7 @@ static vec3 cell_change(const struct spot *spot, vec3 axis, double size) {
 // shorter one fits into it.
 static double odd_share(const struct spot *spot, const struct footprint *f, double size) {
     const vec3 at = checker_cell(spot->body, spot->s, spot->b, spot->arm, size);
-    const bool is_flat = spot->body->shape == SCENE_PARALLELOGRAM;
+    const bool is_flat = shape_traits(spot->body->shape).is_flat;
     const vec3 axis[2] = {cell_change(spot, f->axis[0], size), cell_change(spot, f->axis[1], size)};
     const int longer = vec3_length(axis[1]) > vec3_length(axis[0]);
     const struct cut cut = cut_of(vec3_length(axis[longer]), vec3_length(axis[!longer]));

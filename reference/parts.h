@@ -148,7 +148,13 @@ double reference_rounded(const struct reference *r, double value, double size);
 vec3 reference_rounded3(const struct reference *r, vec3 v, double size);
 // With as_single: as a float; else as it is.
 double reference_stored(const struct reference *r, double value);
+struct surface;
 vec3 reference_stored3(const struct reference *r, vec3 v);
+// Where the checker's cells are counted, in scene units: from a sphere's centre (`arm` is the way from
+// there), along the edges of a parallelogram, and in a mesh's own coordinates. `b` are the hit's
+// barycentrics.
+vec3 reference_checker_place(const struct scene_body *body, const struct surface *s, const double b[3],
+                             vec3 arm);
 
 // ---- bodies.c
 

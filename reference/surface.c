@@ -3,6 +3,7 @@
 #include "reference/exact.h"
 #include "reference/parts.h"
 
+#include "scene/shape.h"
 #include "scene/transform.h"
 
 static vec3 vertex(const struct primitive *p, int k) {
@@ -29,32 +30,13 @@ static double cell_of(double place, double size) {
     return floor(place / size);
 }
 
-// Where the checker's cells are counted: from a sphere's centre, along the edges of a parallelogram, and in a
-// mesh's own coordinates.
-static vec3 checker_place(const struct scene_body *body, const struct surface *s, const double b[3],
-                          vec3 arm) {
-    if (body->shape == SCENE_SPHERE)
-        return arm;
-    if (body->shape == SCENE_PARALLELOGRAM) {
-        const mat3 edges = body->object_to_world.linear;
-        double along_u = s->triangle ? b[1] : b[1] + b[2];
-        double along_v = s->triangle ? b[1] + b[2] : b[2];
-        return (vec3){along_u * vec3_length(mat3_column(edges, 0)),
-                      along_v * vec3_length(mat3_column(edges, 1)), 0};
-    }
-    vec3 corners[3];
-    for (int k = 0; k < 3; k++)
-        corners[k] = body->mesh->positions[body->mesh->triangles[s->triangle].corners[k]];
-    return weighted(corners, b);
-}
-
 // How large the numbers are from which a device computes a place of the checker: those of the hit, in the
 // checker's units; of a parallelogram, the length of its edges.
 static double checker_error(const struct reference *r, const struct scene_body *body, const struct surface *s,
                             vec3 place) {
     if (!r->input.as_single)
         return 0;
-    if (body->shape == SCENE_PARALLELOGRAM)
+    if (shape_traits(body->shape).is_flat)
         return fmax(vec3_length(mat3_column(body->object_to_world.linear, 0)),
                     vec3_length(mat3_column(body->object_to_world.linear, 1)));
     const vec3 offset = vec3_sub(body->object_to_world.offset, r->origin);
@@ -68,7 +50,7 @@ static void take_material(const struct reference *r, const struct scene_body *bo
     const struct material *m = &r->materials[s->material];
     bool odd = false;
     if (m->checker) {
-        const vec3 exact = checker_place(body, s, b, arm);
+        const vec3 exact = reference_checker_place(body, s, b, arm);
         const vec3 at = reference_rounded3(r, exact, checker_error(r, body, s, exact));
         odd = is_odd(cell_of(at.x, m->cell) + cell_of(at.y, m->cell) + cell_of(at.z, m->cell));
     }

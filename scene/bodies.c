@@ -4,6 +4,7 @@
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 #include "scene/scene_parts.h"
+#include "scene/shape.h"
 #include "scene/transform.h"
 
 #include <inttypes.h>
@@ -13,68 +14,6 @@
 enum {
     PARALLELOGRAM_TRIANGLES = 2
 };
-
-// ---- boxes
-
-struct box {
-    vec3 lower, upper;
-};
-
-static const struct box EMPTY = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-
-static void include(struct box *box, vec3 point) {
-    box->lower = vec3_least(box->lower, point);
-    box->upper = vec3_greatest(box->upper, point);
-}
-
-static struct box sphere_box(vec3 center, double radius) {
-    vec3 arm = {radius, radius, radius};
-    return (struct box){vec3_sub(center, arm), vec3_add(center, arm)};
-}
-
-static struct box triangles_box(const struct scene_body *body, const affine3 *map) {
-    struct box box = EMPTY;
-    for (uint32_t i = 0; i < body->triangle_count; i++) {
-        vec3 corners[3];
-        scene_corners(body, map, i, corners);
-        for (int k = 0; k < 3; k++)
-            include(&box, corners[k]);
-    }
-    return box;
-}
-
-static struct box positions_box(const struct mesh *mesh, const affine3 *map) {
-    struct box box = EMPTY;
-    for (uint32_t i = 0; i < mesh->position_count; i++)
-        include(&box, affine3_apply(*map, mesh->positions[i]));
-    return box;
-}
-
-// Around the transformed corners of the mesh's own box.
-static struct box transformed_box(const struct mesh *mesh, const affine3 *map) {
-    struct box box = EMPTY;
-    for (int i = 0; i < 8; i++)
-        include(&box, affine3_apply(*map, (vec3){i & 1 ? mesh->upper.x : mesh->lower.x,
-                                                 i & 2 ? mesh->upper.y : mesh->lower.y,
-                                                 i & 4 ? mesh->upper.z : mesh->lower.z}));
-    return box;
-}
-
-static struct box box_of(const struct scene_body *body) {
-    if (body->shape == SCENE_SPHERE)
-        return sphere_box(body->object_to_world.offset, body->radius);
-    return body->mesh ? transformed_box(body->mesh, &body->object_to_world)
-                      : triangles_box(body, &body->object_to_world);
-}
-
-void scene_body_place(struct scene_body *body, affine3 object_to_world, double radius) {
-    body->object_to_world = object_to_world;
-    body->radius = radius;
-    body->mirrored = mat3_determinant(object_to_world.linear) < 0;
-    struct box box = box_of(body);
-    body->lower = box.lower;
-    body->upper = box.upper;
-}
 
 // ---- bodies
 
@@ -174,48 +113,18 @@ uint32_t scene_body_material(const struct scene_body *body, uint32_t triangle) {
     return body->materials[body->mesh ? body->mesh->triangles[triangle].group : 0];
 }
 
-// Shared corners are computed in one way, so that both triangles hold the same bits.
-static void parallelogram_corners(const affine3 *map, uint32_t triangle, vec3 corners[3]) {
-    vec3 v = mat3_column(map->linear, 1);
-    vec3 along_u = vec3_add(map->offset, mat3_column(map->linear, 0));
-    vec3 opposite = vec3_add(along_u, v);
-    corners[0] = map->offset;
-    corners[1] = triangle ? opposite : along_u;
-    corners[2] = triangle ? vec3_add(map->offset, v) : opposite;
-}
-
-void scene_corners(const struct scene_body *body, const affine3 *map, uint32_t triangle, vec3 corners[3]) {
-    if (body->shape == SCENE_PARALLELOGRAM) {
-        parallelogram_corners(map, triangle, corners);
-        return;
-    }
-    const uint32_t *indices = body->mesh->triangles[triangle].corners;
-    for (int k = 0; k < 3; k++)
-        corners[k] = affine3_apply(*map, body->mesh->positions[indices[k]]);
-}
-
-bool scene_body_bounds(const struct scene_body *body, const affine3 *map, vec3 *lower, vec3 *upper) {
-    struct box box = body->shape == SCENE_SPHERE ? sphere_box(map->offset, body->radius)
-                     : body->mesh                ? positions_box(body->mesh, map)
-                                                 : triangles_box(body, map);
-    *lower = box.lower;
-    *upper = box.upper;
-    return box.lower.x <= box.upper.x;
-}
-
 bool scene_bounds(const struct scene *scene, vec3 *lower, vec3 *upper) {
-    struct box all = EMPTY;
+    bool any = false;
+    *lower = *upper = (vec3){0, 0, 0};
     for (uint32_t i = 0; i < scene->body_count; i++) {
-        struct box own;
+        vec3 low, high;
         const struct scene_body *body = &scene->bodies[i];
-        if (!scene_body_bounds(body, &body->object_to_world, &own.lower, &own.upper))
+        if (!scene_body_bounds(body, &body->object_to_world, &low, &high))
             continue;
-        include(&all, own.lower);
-        include(&all, own.upper);
+        *lower = any ? vec3_least(*lower, low) : low;
+        *upper = any ? vec3_greatest(*upper, high) : high;
+        any = true;
     }
-    bool any = all.lower.x <= all.upper.x;
-    *lower = any ? all.lower : (vec3){0, 0, 0};
-    *upper = any ? all.upper : (vec3){0, 0, 0};
     return any;
 }
 
@@ -289,7 +198,7 @@ static bool check_items(const struct scene *scene, struct diag_sink *sink) {
     const struct scene_body *over = NULL;
     uint64_t total = 0;
     for (uint32_t i = 0; i < scene->body_count; i++) {
-        total += scene->bodies[i].shape == SCENE_SPHERE ? 1 : scene->bodies[i].triangle_count;
+        total += shape_item_count(&scene->bodies[i]);
         if (total > SCENE_ITEMS_MAX && !over)
             over = &scene->bodies[i];
     }

@@ -2,6 +2,7 @@
 #include "core/srgb.h"
 #include "grammar/ir_features.h"
 #include "scene/scene_parts.h"
+#include "scene/shape.h"
 #include "scene/transform.h"
 
 #include <math.h>
@@ -102,7 +103,8 @@ bool scene_amplifies(const struct scene *scene) {
             refraction = fmax(refraction, material->albedo.refraction);
         }
         // Within a mesh, and inside glass, light comes back to the surface that it left.
-        if (gain > 1 + GAIN_ROUNDING && (body->shape == SCENE_MESH || (body->closed && refraction > 0)))
+        if (gain > 1 + GAIN_ROUNDING &&
+            (shape_traits(body->shape).sees_itself || (body->closed && refraction > 0)))
             return true;
         second = fmax(second, fmin(gain, first));
         first = fmax(first, gain);

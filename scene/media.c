@@ -1,6 +1,7 @@
 #include "scene/media.h"
 
 #include "core/heap.h"
+#include "scene/shape.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,7 +14,7 @@ enum {
 // ---- materials
 
 bool scene_is_medium(const struct scene *scene, const struct scene_body *body) {
-    if (!body->closed || (body->shape == SCENE_MESH && !body->mesh))
+    if (!body->closed || !shape_is_there(body))
         return false;
     return scene->materials[scene_medium_material(scene, body)].refraction > 0;
 }
@@ -102,15 +103,19 @@ static bool do_boxes_overlap(const struct scene_body *a, const struct scene_body
            b->lower.y < a->upper.y && a->lower.z < b->upper.z && b->lower.z < a->upper.z;
 }
 
+static bool is_ball(const struct scene_body *body) {
+    return shape_traits(body->shape).items == SHAPE_BALL;
+}
+
 // Between the sphere's centre and the other one, or the nearest point of the other's box.
 static bool may_overlap(const struct scene_body *a, const struct scene_body *b) {
     if (!do_boxes_overlap(a, b))
         return false;
-    if (a->shape != SCENE_SPHERE && b->shape != SCENE_SPHERE)
+    if (!is_ball(a) && !is_ball(b))
         return true;
-    const struct scene_body *ball = a->shape == SCENE_SPHERE ? a : b, *other = ball == a ? b : a;
+    const struct scene_body *ball = is_ball(a) ? a : b, *other = ball == a ? b : a;
     const vec3 center = ball->object_to_world.offset;
-    if (other->shape == SCENE_SPHERE)
+    if (is_ball(other))
         return vec3_length(vec3_sub(center, other->object_to_world.offset)) < ball->radius + other->radius;
     const vec3 nearest = vec3_max(other->lower, vec3_min(other->upper, center));
     return vec3_length(vec3_sub(center, nearest)) < ball->radius;
@@ -302,7 +307,15 @@ static bool may_hold(const struct scene *scene, const struct scene_body *body, v
 }
 
 static bool holds(const struct scene_body *body, vec3 point, double *way) {
-    return body->shape == SCENE_SPHERE ? is_in_sphere(body, point, way) : is_in_mesh(body, point, way);
+    switch (body->shape) {
+    case SCENE_SPHERE:
+        return is_in_sphere(body, point, way);
+    case SCENE_PARALLELOGRAM: // has no inside
+        break;
+    case SCENE_MESH:
+        return is_in_mesh(body, point, way);
+    }
+    return false;
 }
 
 void scene_media_at(const struct scene *scene, vec3 point, struct scene_inside *out) {

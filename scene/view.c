@@ -2,6 +2,7 @@
 
 #include "core/angle.h"
 #include "grammar/ir.h"
+#include "scene/shape.h"
 #include "scene/transform.h"
 #include <stdlib.h>
 #include <string.h>
@@ -57,16 +58,6 @@ static bool looks_all_round(const struct view_camera *camera) {
     return camera->projection == IR_PROJECTION_FISHEYE || camera->projection == IR_PROJECTION_PANORAMA;
 }
 
-static vec3 middle_of(const struct scene_body *body) {
-    const affine3 *map = &body->object_to_world;
-    if (body->shape == SCENE_SPHERE)
-        return map->offset;
-    if (body->shape == SCENE_MESH)
-        return vec3_add(body->lower, vec3_mul(vec3_sub(body->upper, body->lower), 0.5));
-    const vec3 across = vec3_add(mat3_column(map->linear, 0), mat3_column(map->linear, 1));
-    return vec3_add(map->offset, vec3_mul(across, 0.5));
-}
-
 // Of a body that is not there, or whose mesh is not, the position: a diagnostic says so.
 static vec3 focus_point(const struct scene *scene, const struct ir_camera *ir) {
     if (ir->focusing == IR_FOCUS_POINT)
@@ -75,8 +66,8 @@ static vec3 focus_point(const struct scene *scene, const struct ir_camera *ir) {
         return ir->look_at;
     for (uint32_t i = 0; i < scene->body_count; i++) {
         const struct scene_body *body = &scene->bodies[i];
-        if (str_equal(body->name, ir->focus_on) && (body->shape != SCENE_MESH || body->mesh))
-            return middle_of(body);
+        if (str_equal(body->name, ir->focus_on) && shape_is_there(body))
+            return shape_middle(body);
     }
     return ir->position;
 }
@@ -190,10 +181,17 @@ static bool are_edges(const struct view_light *light, vec3 u, vec3 v) {
 }
 
 static bool is_surface(const struct scene_body *body, const struct view_light *light) {
-    if (body->shape == SCENE_SPHERE)
+    const mat3 *edges = &body->object_to_world.linear;
+    switch (body->shape) {
+    case SCENE_SPHERE:
         return light->extent == VIEW_SPHERE && light->radius == body->radius;
-    return light->extent == VIEW_PANEL && are_edges(light, mat3_column(body->object_to_world.linear, 0),
-                                                    mat3_column(body->object_to_world.linear, 1));
+    case SCENE_PARALLELOGRAM:
+        return light->extent == VIEW_PANEL &&
+               are_edges(light, mat3_column(*edges, 0), mat3_column(*edges, 1));
+    case SCENE_MESH: // no light is one
+        break;
+    }
+    return false;
 }
 
 // 2^-19 of the coordinates: some ten units of the last place that single precision keeps of them.
@@ -205,7 +203,7 @@ static double before_body(const struct view_light *light, vec3 origin) {
 // As many lights as have a place and an extent: each, found in their order, that has the body's surface.
 static void take_body(const struct scene_body *body, struct view_light **lights, uint32_t count,
                       vec3 origin) {
-    struct view_light at = {.position = middle_of(body)};
+    struct view_light at = {.position = shape_middle(body)};
     const struct view_light *key = &at;
     uint32_t low = 0, high = count;
     while (low < high) {
@@ -236,7 +234,7 @@ static void find_bodies(const struct scene *scene, struct arena *arena, struct v
     qsort(lights, count, sizeof *lights, compare_places);
     const vec3 origin = origin_of(scene, out);
     for (uint32_t i = 0; i < scene->body_count; i++)
-        if (scene->bodies[i].shape != SCENE_MESH)
+        if (!shape_traits(scene->bodies[i].shape).needs_mesh)
             take_body(&scene->bodies[i], lights, count, origin);
 }
 

@@ -2,6 +2,7 @@
 #include "measure/extremes/extremes_parts.h"
 
 #include "grammar/ir_features.h"
+#include "scene/shape.h"
 
 #include <math.h>
 #include <string.h>
@@ -156,8 +157,7 @@ static void change_bodies(struct variant *v, const struct change *c) {
         struct scene_body *body = &v->scene.bodies[i];
         affine3 map = body->object_to_world;
         map.offset = changed(c, map.offset);
-        // A sphere is scaled by its radius: its object space is as large as the scene's.
-        for (int k = 0; k < 9 && body->shape != SCENE_SPHERE; k++)
+        for (int k = 0; k < 9 && !shape_traits(body->shape).has_radius; k++)
             map.linear.m[k / 3][k % 3] *= c->factor;
         scene_body_place(body, map, body->radius * c->factor);
     }

@@ -282,5 +282,18 @@ rm -r shaders
 plant tests/unit/test_buf.c ''
 finds sources 'tests/unit/test_buf.c:1:'
 
+fresh
+if command -v "${CC:-cc}" >/dev/null; then
+    plant scene/scene.h 'enum scene_shape {' '    SCENE_MESH,' '};'
+    plant scene/shape.h '#include "scene/scene.h"' 'enum shape_items {' '    SHAPE_TRIANGLES,' '};'
+    plant scene/shape.c '#include "scene/shape.h"' 'int f(enum scene_shape s);' 'int f(enum scene_shape s) {' '    switch (s) {' \
+        '    case SCENE_MESH:' '        return 1;' '    }' '    return 0;' '}'
+    plant CONTRIBUTING.md '## How to add a kind of body' '`scene/shape.c`: `f`'
+    passes shapes
+    plant CONTRIBUTING.md '## How to add a kind of body' '`scene/shape.c`: `g`'
+    finds shapes 'does not list scene/shape.c: f'
+    finds shapes 'does not need: scene/shape.c: g'
+fi
+
 rm -rf "$work/tree" "$work/names" "$work/rooms" "$work/build"
 [ $failures -eq 0 ]

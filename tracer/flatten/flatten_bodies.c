@@ -1,6 +1,7 @@
 // Bodies: transforms in double with the origin taken off first, then scale, then rounding to float.
 #include "core/heap.h"
 #include "core/parallel.h"
+#include "scene/shape.h"
 #include "shaders/frame.h"
 #include "tracer/bvh/items.h"
 #include "tracer/flatten/flatten_parts.h"
@@ -17,6 +18,17 @@ enum {
     PIECE = 8192,
 };
 
+// Whether its record is that of a sphere; else it has triangles.
+static bool is_sphere(const struct scene_body *body) {
+    switch (shape_traits(body->shape).items) {
+    case SHAPE_BALL:
+        return true;
+    case SHAPE_TRIANGLES:
+        break;
+    }
+    return false;
+}
+
 // ---- counting and measuring
 
 enum flatten_fault flatten_count(struct flattening *f) {
@@ -26,7 +38,7 @@ enum flatten_fault flatten_count(struct flattening *f) {
     for (uint32_t i = 0; i < f->scene->body_count; i++) {
         const struct scene_body *body = &f->scene->bodies[i];
         f->out->first_triangle[i] = (uint32_t)total;
-        f->out->sphere_count += body->shape == SCENE_SPHERE;
+        f->out->sphere_count += is_sphere(body);
         total += body->triangle_count;
     }
     // What a fault has room for, and the numbers of items (flatten_instances.c).
@@ -83,7 +95,7 @@ static enum flatten_fault measure_mesh(const struct flattening *f, const struct 
 
 static double measure_body(const struct flattening *f, const struct scene_body *body) {
     affine3 map = flatten_map(f, body);
-    if (body->shape == SCENE_SPHERE)
+    if (is_sphere(body))
         return vec3_max_abs(map.offset) + body->radius;
     double extent = 0;
     for (uint32_t i = 0; i < body->triangle_count; i++) {
@@ -128,7 +140,7 @@ static uint32_t material_flags(struct flattening *f, uint32_t material) {
 }
 
 void flatten_use_materials(struct flattening *f, const struct scene_body *body) {
-    if (body->triangle_count == 0 && body->shape != SCENE_SPHERE)
+    if (shape_item_count(body) == 0)
         return;
     for (uint32_t i = 0; i < body->group_count; i++)
         material_flags(f, body->materials[i]);
@@ -147,7 +159,7 @@ void flatten_spheres(struct flattening *f, struct gpu_word *words, struct bvh_it
     uint32_t count = 0;
     for (uint32_t i = 0; i < f->scene->body_count; i++) {
         const struct scene_body *body = &f->scene->bodies[i];
-        if (body->shape != SCENE_SPHERE)
+        if (!is_sphere(body))
             continue;
         vec3 center = vec3_mul(flatten_map(f, body).offset, f->factor);
         struct gpu_sphere record = {.center = rounded3(f, center),

@@ -1,6 +1,7 @@
 // What shading asks about a body: the coordinates of its checker, and its vertex normals.
 #include "core/heap.h"
 #include "core/parallel.h"
+#include "scene/shape.h"
 #include "tracer/flatten/flatten_parts.h"
 
 #include <math.h>
@@ -54,7 +55,7 @@ enum flatten_fault flatten_body_records(struct flattening *f) {
         if (f->medium)
             record.medium = f->medium[i];
         if (has_checker(f->scene, body)) {
-            if (body->shape == SCENE_PARALLELOGRAM)
+            if (shape_traits(body->shape).is_flat)
                 put_edge_lengths(body, &record);
             else
                 put_map(f, body, &record);

@@ -3,6 +3,7 @@
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "grammar/ir.h"
+#include "scene/shape.h"
 #include "scene/transform.h"
 #include "tracer/flatten/precision_parts.h"
 
@@ -174,7 +175,7 @@ static void note_size(const struct scene_body *body, const struct precision_body
         size.length = vec3_length(vec3_sub(measured->upper, measured->lower));
         size.part = PRECISION_MODEL_PART;
     }
-    if (body->mesh || body->shape == SCENE_SPHERE)
+    if (!shape_traits(body->shape).is_flat)
         precision_note(&out->least[PRECISION_SIZE], size);
 }
 
@@ -184,8 +185,7 @@ static bool measure_body(const struct flat_input *input, uint32_t number, struct
     const struct precision_pieces *known = NULL;
     const struct scene_body *body = &input->scene->bodies[number];
     const affine3 map = transform_relative(body->object_to_world, input->origin);
-    *any = (body->triangle_count || body->shape == SCENE_SPHERE) &&
-           scene_body_bounds(body, &map, &measured->lower, &measured->upper);
+    *any = shape_item_count(body) > 0 && scene_body_bounds(body, &map, &measured->lower, &measured->upper);
     if (!*any)
         return true;
     measured->body = number;

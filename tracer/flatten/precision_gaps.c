@@ -3,6 +3,7 @@
 #include "tracer/flatten/precision_parts.h"
 
 #include "grammar/ir.h"
+#include "scene/shape.h"
 
 #include <float.h>
 #include <math.h>
@@ -105,7 +106,7 @@ static double gap_of(const struct scene *scene, const struct precision_body *a,
 // Of a parallelogram: the error in t of a hit grows with its triangles. 0 for other bodies, which come close
 // to one around a point alone.
 static double longest_diagonal(const struct scene_body *body) {
-    if (body->shape != SCENE_PARALLELOGRAM)
+    if (!shape_traits(body->shape).is_flat)
         return 0;
     vec3 u = mat3_column(body->object_to_world.linear, 0), v = mat3_column(body->object_to_world.linear, 1);
     return fmax(vec3_length(vec3_add(u, v)), vec3_length(vec3_sub(u, v)));
