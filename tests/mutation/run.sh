@@ -2,7 +2,7 @@
 # tests/mutation/run.sh [-n COUNT] [-s SEED] [-b FOLDER] [-p PRESET] [-t TESTS] [-j JOBS] [-l] [-f] [-m LINE] [FILE]...
 #
 # Mutation testing: changes the code that both tracers stand on, one place at a time, and tells whether a test
-# sees it. Takes COUNT mutants (60; 0: all) of the files (assets/ and its readers, scene/view.c and transform.c and bodies.c,
+# sees it. Takes COUNT mutants (60; 0: all) of the files (assets/ and its readers, scene/view.c and transform.c, bodies.c and shape.c,
 # tracer/flatten/) in an order that SEED (1) decides, each in a copy of the working tree in FOLDER
 # (build/mutation), builds what the tests whose names match TESTS need as PRESET says (dev, whose sanitizers see a
 # place read beyond its end), and runs them. Prints a line a mutant, `killed`, `survived`, `unbuilt`, or
@@ -31,7 +31,7 @@ while getopts n:s:b:p:t:j:lfm: option; do
 done
 shift $((OPTIND - 1))
 export LC_ALL=C
-[ $# -gt 0 ] || set -- assets/*.c assets/file/*.c assets/ply/*.c assets/stl/*.c assets/gltf/*.c scene/view.c scene/transform.c scene/bodies.c tracer/flatten/*.c
+[ $# -gt 0 ] || set -- assets/*.c assets/file/*.c assets/obj/*.c assets/ply/*.c assets/stl/*.c assets/gltf/*.c scene/view.c scene/transform.c scene/bodies.c scene/shape.c tracer/flatten/*.c
 if $files; then
     printf '%s\n' "$@"
     exit 0
