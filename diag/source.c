@@ -5,6 +5,12 @@ void source_set_init(struct source_set *set, struct arena *arena) {
     source_add(set, SOURCE_KIND_DEFAULT, STR("default"), STR(""));
 }
 
+void source_set_copy(const struct source_set *from, struct arena *arena, struct source_set *out) {
+    *out = (struct source_set){.arena = arena, .count = from->count, .capacity = from->count};
+    out->items = ARENA_ARRAY(arena, struct source, from->count);
+    memcpy(out->items, from->items, from->count * sizeof *from->items);
+}
+
 uint32_t source_add(struct source_set *set, enum source_kind kind, str path, str text) {
     struct source *source = ARENA_PUSH(set->arena, set);
     *source = (struct source){.path = arena_copy(set->arena, path), .text = text, .kind = kind};

@@ -68,6 +68,8 @@ struct source_place {
 void source_set_init(struct source_set *set, struct arena *arena);
 // Adds a source and returns its index. `text` is not copied and must be shorter than 4 GiB; `path` is copied.
 uint32_t source_add(struct source_set *set, enum source_kind kind, str path, str text);
+// The same sources in an arena of their own; their texts and paths are shared.
+void source_set_copy(const struct source_set *from, struct arena *arena, struct source_set *out);
 struct source_place source_locate(struct source_set *set, span at);
 // Only the line: it does not depend on how long that is.
 uint32_t source_line(struct source_set *set, span at);

@@ -113,6 +113,38 @@ static enum file_status status_of_errno(struct files *files, int error) {
     return error == ENOENT || error == ENOTDIR ? FILE_MISSING : FILE_UNREADABLE;
 }
 
+static void *copy_list(struct arena *arena, const void *items, uint32_t count, size_t size) {
+    return count ? memcpy(arena_alloc(arena, heap_times(count, size)), items, count * size) : NULL;
+}
+
+#define COPY_LIST(name)                                                                                      \
+    (out->name.items = copy_list(arena, from->name.items, from->name.count, sizeof *from->name.items),       \
+     out->name.capacity = from->name.count)
+
+void files_copy(const struct files *from, struct arena *arena, struct files *out) {
+    *out = *from;
+    out->arena = arena;
+    COPY_LIST(roots);
+    COPY_LIST(given);
+    COPY_LIST(overlays);
+    COPY_LIST(log);
+    COPY_LIST(missed);
+}
+
+bool files_are_same(const struct files *files) {
+    struct stat info;
+    for (uint32_t i = 0; i < files->log.count; i++) {
+        const struct file_read *read = &files->log.items[i];
+        if (stat(read->path.ptr, &info) != 0 || (uint64_t)info.st_size != read->size_bytes ||
+            (int64_t)info.st_mtim.tv_sec * 1000000000 + info.st_mtim.tv_nsec != read->modified_ns)
+            return false;
+    }
+    for (uint32_t i = 0; i < files->missed.count; i++)
+        if (stat(files->missed.items[i].ptr, &info) == 0)
+            return false;
+    return true;
+}
+
 enum file_status files_add_root(struct files *files, str directory) {
     const char *name = system_path(files, directory);
     struct stat info;

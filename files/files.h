@@ -59,6 +59,10 @@ struct files {
 };
 
 void files_init(struct files *files, struct arena *arena);
+// The same folders and log in an arena of their own; their texts are shared.
+void files_copy(const struct files *from, struct arena *arena, struct files *out);
+// Whether all files of the log are as they were, and none of those that were missed is there.
+bool files_are_same(const struct files *files);
 // Makes `directory` an allowed folder. FILE_MISSING or FILE_NOT_REGULAR if it is not a folder.
 enum file_status files_add_root(struct files *files, str directory);
 // Text from memory in place of the file at `path` (which need not exist); copied. The newest one for a path

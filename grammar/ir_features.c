@@ -14,6 +14,7 @@ struct feature_walk {
     const struct ir_origin *origin;    // may be NULL
     struct ir_feature_reason *reasons; // by bit number; NULL: only the mask is wanted
     uint64_t mask;
+    const struct schema_element *standard; // whose defaults were walked
 };
 
 // What switches a feature on.
@@ -140,6 +141,9 @@ static void walk_reference(struct feature_walk *w, const struct schema_row *row,
     const void *referent = ir_walk_referent(w->scene, row, field);
     struct ir_material standard = {0};
     if (!referent) {
+        if (w->standard == row->child) // its defaults have switched on what they do
+            return;
+        w->standard = row->child;
         assert(row->child->size <= sizeof standard);
         schema_init(row->child, &standard);
         referent = &standard;

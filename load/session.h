@@ -20,7 +20,9 @@
 
 struct ir_image;
 struct ir_scene;
+struct parser_kept;
 struct timeline;
+struct session_kept;
 
 struct session_options {
     str path;     // of the scene, or of a mesh, which is then a scene with that one model
@@ -56,8 +58,9 @@ struct session_options {
     bool pixels_later;  // session_load need not wait for the background's pixels: session_settle does
     struct timeline *timeline; // may be NULL
     bool unnamed; // nothing is read but its beginning: the file begins as a scene does, and has another name
-    bool judged;  // the caller judges the findings by policy and comments (load/check.h): they are not yet
-                  // sorted
+    struct session_kept *kept; // of this scene: its files are not read again (session_kept.h). NULL: they are
+    bool judged; // the caller judges the findings by policy and comments (load/check.h): they are not yet
+                 // sorted
 };
 
 // Most pixels of a picture, or of a part of one, that is held in memory as a whole.
@@ -92,6 +95,7 @@ struct session {
     bool unsettled;        // pixels are still being decoded, and nothing has failed so far
     enum session_state state;
     double read_seconds, assets_seconds, lint_seconds;
+    struct parser_kept *parser; // of a session that is kept
 };
 
 // Loads `options->path`. Always leaves a session that session_finish accepts, whatever the result.
@@ -127,6 +131,9 @@ bool session_rebase(struct session *session, str out);
 
 // Only one file, for `convert`: no includes, no assets. The IR is origin.files[0].scene too.
 enum session_state session_load_text(struct session *session, const struct session_options *options);
+// All that does not depend on options.sets: no assets, and no scene, but session->parser, whose caller drops
+// it; NULL where there is anything to report.
+void session_load_kept(struct session *session, const struct session_options *options);
 // `.glintrc.yaml` by itself: a session without a scene (SESSION_NO_SCENE).
 enum session_state session_load_settings(struct session *session, const struct session_options *options);
 

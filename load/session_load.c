@@ -8,6 +8,7 @@
 #include "load/around/around.h"
 #include "load/check_allow.h"
 #include "load/import/scene_text.h"
+#include "load/session_kept.h"
 #include "load/what_file.h"
 #include "parser/parser.h"
 #include "parser/tree/reader.h"
@@ -270,6 +271,7 @@ static void take_image_options(struct session *session) {
 enum extent {
     EXTENT_SCENE,
     EXTENT_FILE,     // without includes and assets
+    EXTENT_KEPT,     // what does not depend on the sets
     EXTENT_SETTINGS, // it is a configuration
     EXTENT_NAME,     // only that its name is not that of a scene
 };
@@ -286,11 +288,39 @@ static void report_name(struct session *session, uint32_t source) {
               reader_is_xml(session->options.path, session->sources.items[source].text) ? "xml" : "yaml");
 }
 
+static struct parser_input parser_input(struct session *session) {
+    return (struct parser_input){.sources = &session->sources,
+                                 .files = &session->files,
+                                 .sink = &session->sink,
+                                 .limits = &session->options.limits,
+                                 .arena = &session->arena,
+                                 .sets = session->options.sets,
+                                 .set_count = session->options.set_count,
+                                 .timeline = session->options.timeline};
+}
+
+// What the parser has made, and all that it names.
+static enum session_state take_scene(struct session *session, struct asset_store *store,
+                                     const struct parser_output *output, bool alone) {
+    session->scene = output->scene;
+    session->origin = output->origin;
+    session->unread = output->unread;
+    take_image_options(session);
+    if (alone || session->options.text_only)
+        return SESSION_LOADED;
+    if (session->options.on_text && session->sink.errors == 0)
+        session->options.on_text(session->options.on_text_context);
+    load_assets(session, store);
+    session->unsettled = session->assets.pixels_later && session->sink.errors == 0;
+    if (!session->unsettled)
+        finish_load(session);
+    return SESSION_LOADED;
+}
+
 static enum session_state load_stages(struct session *session, struct asset_store *store,
                                       enum extent extent) {
-    bool alone = extent == EXTENT_FILE;
     uint32_t source = 0;
-    double start = clock_seconds();
+    const double start = clock_seconds();
     if (extent == EXTENT_SETTINGS) {
         struct config_input settings = config_input(session);
         config_read_file(&settings, session->options.path, session->options.path, &session->config);
@@ -304,32 +334,35 @@ static enum session_state load_stages(struct session *session, struct asset_stor
         report_name(session, source);
         return SESSION_NO_SCENE;
     }
-    struct parser_input input = {.sources = &session->sources,
-                                 .files = &session->files,
-                                 .sink = &session->sink,
-                                 .limits = &session->options.limits,
-                                 .arena = &session->arena,
-                                 .sets = session->options.sets,
-                                 .set_count = session->options.set_count,
-                                 .timeline = session->options.timeline};
+    const struct parser_input input = parser_input(session);
     struct parser_output output = {0};
-    bool found = alone ? parser_load_file(&input, source, &output) : parser_load(&input, source, &output);
-    session->read_seconds = clock_seconds() - start;
-    if (!found)
+    if (extent == EXTENT_KEPT) {
+        session->parser = session->sink.count == 0 ? parser_keep(&input, source) : NULL;
         return SESSION_NO_SCENE;
-    session->scene = output.scene;
-    session->origin = output.origin;
-    session->unread = output.unread;
-    take_image_options(session);
-    if (!alone && !session->options.text_only) {
-        if (session->options.on_text && session->sink.errors == 0)
-            session->options.on_text(session->options.on_text_context);
-        load_assets(session, store);
-        session->unsettled = session->assets.pixels_later && session->sink.errors == 0;
-        if (!session->unsettled)
-            finish_load(session);
     }
-    return SESSION_LOADED;
+    const bool alone = extent == EXTENT_FILE;
+    const bool found =
+        alone ? parser_load_file(&input, source, &output) : parser_load(&input, source, &output);
+    session->read_seconds = clock_seconds() - start;
+    return found ? take_scene(session, store, &output, alone) : SESSION_NO_SCENE;
+}
+
+// The same of what is kept.
+static enum session_state load_kept(struct session *session, struct asset_store *store) {
+    const struct session *text = session_kept_text(session->options.kept);
+    const double start = clock_seconds();
+    struct parser_output output = {0};
+    session->options.limits = text->options.limits;
+    session->config = text->config;
+    session->policy = text->policy;
+    diag_sink_keep(&session->sink, (uint32_t)session->options.limits.value[LIMIT_MESSAGES]);
+    session->arena.cap_bytes = limits_size(&session->options.limits, LIMIT_SCENE_MEMORY);
+    source_set_copy(&text->sources, &session->arena, &session->sources);
+    files_copy(&text->files, &session->arena, &session->files);
+    const struct parser_input input = parser_input(session);
+    const bool found = parser_load_kept(text->parser, &input, &output);
+    session->read_seconds = clock_seconds() - start;
+    return found ? take_scene(session, store, &output, false) : SESSION_NO_SCENE;
 }
 
 struct loading {
@@ -342,6 +375,10 @@ static void load(void *context) {
     const struct loading *l = context;
     struct session *session = l->session;
     const struct session_options *options = &session->options;
+    if (options->kept) {
+        session->state = load_kept(session, l->store);
+        return;
+    }
     source_set_init(&session->sources, &session->arena);
     files_init(&session->files, &session->arena);
     for (uint32_t i = 0; i < options->overlay_count; i++)
@@ -372,6 +409,8 @@ static enum session_state guarded_load(struct session *session, const struct ses
                                        struct asset_store *store, enum extent extent) {
     struct loading loading = {session, store, extent};
     *session = (struct session){.options = *options};
+    if (options->kept)
+        session_kept_hold(options->kept);
     diag_sink_init(&session->sink);
     arena_init(&session->arena, limits_size(&options->limits, LIMIT_SCENE_MEMORY));
     run_guarded(session, load, &loading);
@@ -401,6 +440,10 @@ enum session_state session_load_text(struct session *session, const struct sessi
     return state;
 }
 
+void session_load_kept(struct session *session, const struct session_options *options) {
+    guarded_load(session, options, NULL, EXTENT_KEPT);
+}
+
 enum session_state session_load_settings(struct session *session, const struct session_options *options) {
     return guarded_load(session, options, NULL, EXTENT_SETTINGS);
 }
@@ -411,4 +454,5 @@ void session_finish(struct session *session) {
     assets_finish(&session->assets);
     diag_sink_finish(&session->sink);
     arena_finish(&session->arena);
+    session_kept_release(session->options.kept);
 }

@@ -55,6 +55,18 @@ struct parser_output {
 // the sink.
 bool parser_load(const struct parser_input *input, uint32_t main_source, struct parser_output *output);
 
+// A scene as it is after stage 4, of which many are made that differ in their --set options and in the frame
+// of their animation.
+struct parser_kept;
+// Runs the first four stages. `input` is copied; what it points to, its sets left out, must outlive what is
+// kept. NULL: there is no scene, or anything was reported.
+struct parser_kept *parser_keep(const struct parser_input *input, uint32_t main_source);
+void parser_drop(struct parser_kept *kept); // NULL does nothing
+// The other stages, as parser_load, for a copy of the scene. input->sources begins with those of the kept
+// scene. May run several times at once.
+bool parser_load_kept(const struct parser_kept *kept, const struct parser_input *input,
+                      struct parser_output *output);
+
 // Only one file, without its includes, overrides and rules between files: what `convert` writes.
 bool parser_load_file(const struct parser_input *input, uint32_t source, struct parser_output *output);
 

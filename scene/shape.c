@@ -3,6 +3,7 @@
 #include "core/angle.h"
 
 #include <math.h>
+#include <string.h>
 
 struct shape_traits shape_traits(enum scene_shape shape) {
     switch (shape) {
@@ -22,6 +23,13 @@ bool shape_is_there(const struct scene_body *body) {
 
 uint32_t shape_item_count(const struct scene_body *body) {
     return shape_traits(body->shape).items == SHAPE_BALL ? 1 : body->triangle_count;
+}
+
+bool shape_is_same(const struct scene_body *a, const struct scene_body *b) {
+    return a->shape == b->shape &&
+           memcmp(&a->object_to_world, &b->object_to_world, sizeof b->object_to_world) == 0 &&
+           a->radius == b->radius && a->mesh == b->mesh && a->triangle_count == b->triangle_count &&
+           a->closed == b->closed && a->mirrored == b->mirrored && a->smooth == b->smooth;
 }
 
 // ---- corners

@@ -28,6 +28,8 @@ struct shape_traits shape_traits(enum scene_shape shape);
 bool shape_is_there(const struct scene_body *body);
 // How many items trees hold of it.
 uint32_t shape_item_count(const struct scene_body *body);
+// Whether two bodies have the same surface, to the bit: shape, place and size. What it shows is not compared.
+bool shape_is_same(const struct scene_body *a, const struct scene_body *b);
 // What a camera is focused on, and a light in the body shares: the centre of a sphere, the middle of a
 // parallelogram, that of the box around a mesh.
 vec3 shape_middle(const struct scene_body *body);

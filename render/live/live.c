@@ -3,6 +3,7 @@
 #include "core/clock.h"
 #include "core/heap.h"
 #include "grammar/ir.h"
+#include "load/session_kept.h"
 #include "load/session_precision.h"
 #include "load/where.h"
 #include "render/live/live_precision.h"
@@ -37,6 +38,7 @@ void live_finish(struct live *live) {
     shot_close(&live->shot);
     drop_session(&live->session);
     drop_session(&live->broken);
+    session_kept_release(live->text);
     watch_destroy(live->watch);
     bvh_keep_destroy(live->keep);
     asset_store_destroy(live->store);
@@ -96,6 +98,7 @@ static enum live_state open_whole(struct live *live, struct session *session, ui
     live->change.is_whole = true;
     live->change.precision_asked = asks;
     live->is_asked = asks;
+    live->has_measured = false;
     live->kept = 0;
     const enum shot_status status = shot_open_for(&live->shot, session, live->gpu, camera, wish);
     if (status != SHOT_OK) {
@@ -196,12 +199,27 @@ static enum live_state show(struct live *live, const struct live_loaded *loaded,
     return state;
 }
 
-struct live_loaded live_read(struct live *live, const struct session_options *options) {
+// What is kept of the scene's text: NULL where nothing is, or can be.
+static struct session_kept *keep_text(struct live *live, const struct session_options *options) {
+    if (live->text && session_kept_fits(live->text, options))
+        return live->text;
+    session_kept_release(live->text);
+    live->text = NULL;
+    if (!str_equal(live->unkept, options->path))
+        live->text = session_keep(options);
+    if (!live->text)
+        live->unkept = options->path;
+    return live->text;
+}
+
+struct live_loaded live_read(struct live *live, const struct session_options *options, bool again) {
+    struct session_options own = *options;
     const struct asset_reads before = asset_store_reads(live->store);
     struct live_loaded loaded = {.session = heap_zeroed(1, sizeof *loaded.session)};
     if (!loaded.session)
         return loaded;
-    session_load(loaded.session, options, live->store);
+    own.kept = again ? keep_text(live, options) : NULL;
+    session_load(loaded.session, &own, live->store);
     const struct asset_reads now = asset_store_reads(live->store);
     loaded.meshes_read = now.meshes - before.meshes;
     loaded.images_read = now.images - before.images;
@@ -229,6 +247,7 @@ enum live_state live_show(struct live *live, struct live_loaded loaded, str came
         bvh_keep_sweep(live->keep);
     } else {
         live->broken = loaded.session;
+        live->has_measured = false; // that was of this one
     }
     return state;
 }
@@ -249,7 +268,7 @@ enum live_state live_turn(struct live *live, str name) {
 
 enum live_state live_load(struct live *live) {
     const double start = clock_seconds();
-    const struct live_loaded loaded = live_read(live, &live->wish.session);
+    const struct live_loaded loaded = live_read(live, &live->wish.session, false);
     if (loaded.session)
         watch_all(live, loaded.session);
     if (live->wish.is_read)

@@ -64,7 +64,11 @@ struct live {
     bool is_asked; // `choice` is what the last trial found, for `kept` sessions since
     uint32_t kept;
     struct precision_choice choice;
+    struct precision_report measured; // of the session, where has_measured
+    bool has_measured;
     struct live_change change; // of the last load
+    struct session_kept *text; // of the last scene that is read again; NULL: none
+    str unkept;                // the path of one that could not be kept
     uint32_t loads;
 };
 
@@ -81,7 +85,8 @@ void live_finish(struct live *live);
 enum live_state live_load(struct live *live);
 // The two halves of live_load, for a scene and settings that change. live_read may run beside a frame of the
 // shot, on another thread, one at a time; its result is for live_show, or for live_drop.
-struct live_loaded live_read(struct live *live, const struct session_options *options);
+// `again`: other scenes of the same files are read too, so that their text is kept.
+struct live_loaded live_read(struct live *live, const struct session_options *options, bool again);
 enum live_state live_show(struct live *live, struct live_loaded loaded, str camera);
 void live_drop(struct live_loaded loaded);
 // Another camera of the session that is shown; where there is none of this name, the shot stays.

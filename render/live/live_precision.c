@@ -2,6 +2,7 @@
 
 #include "grammar/ir.h"
 #include "load/session_precision.h"
+#include "scene/shape.h"
 
 // A trial counts pixels that differ; single precision is chosen where few do. An answer holds for further
 // frames only if it was clear: an eighth of that, or eight times as many.
@@ -30,6 +31,19 @@ static bool is_like(const struct precision_report *was, const struct precision_r
     return true;
 }
 
+// What is measured depends on the bodies, on where the camera is, and on nothing else.
+static bool is_measured(const struct live *live, const struct session *session,
+                        const struct flat_input *input) {
+    const struct scene *was = &live->session->resolved, *is = &session->resolved;
+    const struct view *before = &live->shot.view;
+    bool same = live->has_measured && was->body_count == is->body_count &&
+                vec3_is_zero(vec3_sub(before->camera.position, input->view->camera.position)) &&
+                vec3_is_zero(vec3_sub(session_origin(live->session, before), input->origin));
+    for (uint32_t i = 0; i < is->body_count && same; i++)
+        same = shape_is_same(&was->bodies[i], &is->bodies[i]);
+    return same;
+}
+
 struct looking {
     struct live *live;
     struct session *session;
@@ -47,9 +61,14 @@ static void look(void *context) {
     view_build(&session->resolved, l->camera, session->image->width, session->image->height, &session->arena,
                NULL, &view);
     const struct flat_input input = precision_input(session, &view);
-    if (vec3_dot(view.camera.forward, live->shot.view.camera.forward) < SAME_VIEW ||
-        !precision_measure(&input, &now))
+    if (vec3_dot(view.camera.forward, live->shot.view.camera.forward) < SAME_VIEW)
         return;
+    if (is_measured(live, session, &input))
+        now = live->measured;
+    else if (!precision_measure(&input, &now))
+        return;
+    live->measured = now;
+    live->has_measured = true;
     // Large scenes are only measured, whoever asks.
     l->keeps = choice->traced ? is_like(&choice->report, &now, choice->needs_double)
                               : now.suffices == !choice->needs_double;

@@ -1,5 +1,6 @@
 // Geometry of the flat scene of before, shared where nothing that it is made of has changed: of an edited
 // material, light or camera nothing is left to do that grows with the number of triangles.
+#include "scene/shape.h"
 #include "tracer/flatten/flatten_parts.h"
 
 #include <string.h>
@@ -18,11 +19,7 @@ static bool shows_same_materials(const struct flattening *f, const struct scene_
 static bool is_same_body(const struct flattening *f, uint32_t number) {
     const struct scene_body *was = &f->input->before->scene->bodies[number];
     const struct scene_body *is = &f->scene->bodies[number];
-    return was->shape == is->shape &&
-           memcmp(&was->object_to_world, &is->object_to_world, sizeof is->object_to_world) == 0 &&
-           was->radius == is->radius && was->mesh == is->mesh && was->group_count == is->group_count &&
-           was->triangle_count == is->triangle_count && was->closed == is->closed &&
-           was->mirrored == is->mirrored && was->smooth == is->smooth && shows_same_materials(f, was, is);
+    return shape_is_same(was, is) && was->group_count == is->group_count && shows_same_materials(f, was, is);
 }
 
 bool flatten_is_kept(const struct flattening *f) {

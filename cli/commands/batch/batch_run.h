@@ -30,6 +30,7 @@ struct batch_made {
 struct batch_reading {
     struct live *live;
     struct session_options options;
+    bool again; // other jobs are of the same scene
     struct live_loaded loaded;
     struct parallel_task task;
     bool is_under_way;

@@ -98,7 +98,12 @@ static int take_outputs(struct batch_run *run) {
 
 static void read_scene(void *context) {
     struct batch_reading *reading = context;
-    reading->loaded = live_read(reading->live, &reading->options);
+    reading->loaded = live_read(reading->live, &reading->options, reading->again);
+}
+
+static bool is_same_scene(const struct batch_run *run, uint32_t job, uint32_t other) {
+    return other < run->batch.jobs.count &&
+           strcmp(run->batch.jobs.items[job].scene, run->batch.jobs.items[other].scene) == 0;
 }
 
 static void begin_reading(struct batch_run *run, uint32_t job) {
@@ -108,6 +113,7 @@ static void begin_reading(struct batch_run *run, uint32_t job) {
     run->next.options.sets = j->sets;
     run->next.options.set_count = j->set_count;
     run->next.options.lint = LINT_CHEAP;
+    run->next.again = is_same_scene(run, job, job + 1) || (job && is_same_scene(run, job, job - 1));
     run->next.is_under_way = true;
     parallel_start(&run->next.task, read_scene, &run->next);
 }

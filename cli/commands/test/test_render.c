@@ -146,7 +146,7 @@ static struct session *load(struct tester *t, struct test_case *test) {
     const struct session_options options = options_of(t, test);
     live_drop(t->loaded);
     t->shown = NULL;
-    t->loaded = live_read(&t->live, &options);
+    t->loaded = live_read(&t->live, &options, false);
     t->run->loads++;
     struct session *session = t->loaded.session;
     if (!is_good(session))
