@@ -3,6 +3,7 @@
 #include "cli/commands/bands/band_devices.h"
 #include "cli/device.h"
 #include "core/clock.h"
+#include "core/ranges.h"
 #include "core/timeline.h"
 #include "grammar/ir.h"
 #include "picture/write/rows.h"
@@ -107,7 +108,7 @@ static int judge_formats(struct render_job *job) {
 
 int render_plan_bands(struct render_job *job) {
     const struct part_region *region = &job->part.region;
-    const bool is_large = (uint64_t)region->width * region->height > SESSION_PIXELS_MOST;
+    const bool is_large = (uint64_t)region->width * region->height > RANGE_PIXELS_MOST;
     job->in_bands = is_large || are_asked_for(job) || saves_memory(job);
     if (!job->in_bands)
         return CLI_OK;
