@@ -19,7 +19,8 @@ static bool has_bounds(const struct measure_bounds *bounds) {
 }
 
 static bool keeps_finite(const struct compare_report *report) {
-    return !has_bounds(report->bounds) || report->result->not_finite_together <= report->bounds->not_finite;
+    return !has_bounds(report->bounds) ||
+           (double)report->result->not_finite_together <= report->bounds->not_finite;
 }
 
 bool compare_keeps_bounds(const struct compare_report *report) {

@@ -360,7 +360,7 @@ static int choose(struct test_run *run) {
     run->cases.count = kept;
     if (kept)
         return CLI_OK;
-    cli_usage(cli, cli->options.test.only_arg, "no picture's name matches '%s'", only);
+    cli_usage(cli, cli_option_place(cli, "only"), "no picture's name matches '%s'", only);
     if (nearest_best(&search).len)
         diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
     else
