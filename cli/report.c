@@ -139,7 +139,7 @@ int cli_try_scene(struct cli *cli, const char *path) {
 int cli_interrupted(struct cli *cli) {
     const int signal_number = interrupt_signal();
     cli_error(cli, DIAG_INTERRUPTED, cli->operands[0], NULL, "interrupted; nothing was written");
-    if (cli->options.part.resume_arg) // what is there already stays, and the same command goes on
+    if (cli->options.part.resume) // what is there already stays, and the same command goes on
         return CLI_STOPPED;
     return signal_number == SIGTERM ? CLI_TERMINATED : CLI_INTERRUPTED;
 }

@@ -52,8 +52,8 @@ struct session_options {
     // that may go on beside that. NULL: nothing.
     void (*on_text)(void *context);
     void *on_text_context;
-    bool whole_picture; // all its pixels are needed at once: more than RANGE_PIXELS_MOST are an error
-    bool pixels_later;  // session_load need not wait for the background's pixels: session_settle does
+    bool whole_picture;        // all its pixels are needed at once: more than RANGE_PIXELS_MOST are an error
+    bool pixels_later;         // session_load need not wait for the background's pixels: session_settle does
     struct timeline *timeline; // may be NULL
     bool unnamed; // nothing is read but its beginning: the file begins as a scene does, and has another name
     bool judged;  // the caller judges the findings by policy and comments (load/check.h): they are not yet

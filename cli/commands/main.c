@@ -314,6 +314,8 @@ static int run_command(struct cli *cli, const struct cli_command *command) {
         if (cli->operands[i][0] == '\0')
             return cli_usage(cli, cli_operand_place(cli, i), "'glint %s' needs %s, but this is empty",
                              command->name, command->operands);
+    if (!cli_judge_options(cli))
+        return CLI_USAGE;
     int status = cli_take_stream(cli, command);
     cli->command = command;
     if (status == CLI_OK && !cli->options.changed) // that asks git first

@@ -132,11 +132,11 @@ static int word_of(const char *const *words, int count, const char *text) {
 
 static bool is_sound(const struct part *part) {
     const struct part_region *r = &part->region;
-    return part->width >= 1 && part->height >= 1 && part->width <= RANGE_SIDE_MOST && part->height <= RANGE_SIDE_MOST &&
-           r->width >= 1 && r->height >= 1 && r->x < part->width && r->y < part->height &&
-           r->width <= part->width - r->x && r->height <= part->height - r->y && part->samples >= 1 &&
-           part->samples <= RANGE_SAMPLES_MOST && part->first_sample < part->end_sample &&
-           part->end_sample <= part->samples;
+    return part->width >= 1 && part->height >= 1 && part->width <= RANGE_SIDE_MOST &&
+           part->height <= RANGE_SIDE_MOST && r->width >= 1 && r->height >= 1 && r->x < part->width &&
+           r->y < part->height && r->width <= part->width - r->x && r->height <= part->height - r->y &&
+           part->samples >= 1 && part->samples <= RANGE_SAMPLES_MOST &&
+           part->first_sample < part->end_sample && part->end_sample <= part->samples;
 }
 
 char *part_take_line(char **text, const char *word) {
