@@ -5,6 +5,7 @@
 
 #include "cli/options.h"
 #include "cli/words.h"
+#include "core/nearest.h"
 #include "diag/diag.h"
 #include "load/session.h"
 #include "picture/write/image.h"
@@ -78,6 +79,8 @@ span cli_place(const struct cli *cli, int arg);
 int cli_operand_place(const struct cli *cli, int index);
 // Reports one error of the command line and returns CLI_USAGE.
 int cli_usage(struct cli *cli, int arg, const char *format, ...) __attribute__((format(printf, 3, 4)));
+// Adds to it the name that may be meant, or else, unless it is NULL, other help.
+void cli_did_you_mean(struct cli *cli, const struct nearest *search, const char *otherwise);
 // Prints diagnostics of the command line and of files in cli->sources.
 void cli_print_sink(struct cli *cli, const struct diag_sink *sink);
 // Prints a session's diagnostics, notes too unless `quiet`; returns their exit code.

@@ -228,11 +228,10 @@ static void suggest(struct cli *cli, const struct cli_command *command, const ch
     struct nearest search = nearest_begin((str){word, strcspn(word, "=")});
     for (const struct option_row *row = NULL; (row = cli_next_option(command, row)) != NULL;)
         nearest_offer(&search, arena_format(&cli->arena, "--%s", row->name));
-    if (nearest_best(&search).len)
-        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
-    else
-        diag_help(&cli->sink, "'glint %s%s--help' lists the options", command ? command->name : "",
-                  command ? " " : "");
+    cli_did_you_mean(cli, &search,
+                     arena_format(&cli->arena, "'glint %s%s--help' lists the options",
+                                  command ? command->name : "", command ? " " : "")
+                         .ptr);
 }
 
 // The word that getopt read last.
@@ -333,15 +332,9 @@ bool cli_format(struct cli *cli, const char *const *kinds, int *kind) {
             return true;
     }
     cli_usage(cli, cli_option_place(cli, "format"), "--format does not know '%s'", text);
-    struct strbuf list;
-    strbuf_init(&list);
+    str list = STR("it takes one of: ");
     for (int i = 0; kinds[i]; i++)
-        strbuf_format(&list, "%s%s", i ? ", " : "", kinds[i]);
-    str best = nearest_best(&search);
-    if (best.len)
-        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(best));
-    else
-        diag_help(&cli->sink, "it takes one of: %.*s", (int)list.len, list.data ? list.data : "");
-    strbuf_finish(&list);
+        list = arena_format(&cli->arena, "%.*s%s%s", STR_ARG(list), i ? ", " : "", kinds[i]);
+    cli_did_you_mean(cli, &search, list.ptr);
     return false;
 }

@@ -28,11 +28,9 @@ static bool refuse_word(struct cli *cli, int arg, const char *name, str word, co
     for (int i = 0; words[i]; i++)
         nearest_offer(&search, str_from(words[i]));
     cli_usage(cli, arg, "--%s does not know '%.*s'", name, STR_ARG(word));
-    if (nearest_best(&search).len)
-        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
-    else
-        diag_help(&cli->sink, words == diag_fail_words ? "it takes error or warning"
-                                                       : "a severity is error, warning, note or off");
+    cli_did_you_mean(cli, &search,
+                     words == diag_fail_words ? "it takes error or warning"
+                                              : "a severity is error, warning, note or off");
     return false;
 }
 

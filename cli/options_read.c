@@ -112,10 +112,7 @@ bool cli_read_limit(struct cli *cli, int arg, const struct option_row *row, cons
     for (int i = 0; i < LIMIT_COUNT; i++)
         nearest_offer(&search, str_from(limit_info((enum limit)i)->name));
     cli_usage(cli, arg, "there is no limit '%.*s'", (int)length, text);
-    if (nearest_best(&search).len)
-        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
-    else
-        diag_help(&cli->sink, "'--limit help' lists the limits");
+    cli_did_you_mean(cli, &search, "'--limit help' lists the limits");
     return false;
 }
 

@@ -53,6 +53,14 @@ int cli_usage(struct cli *cli, int arg, const char *format, ...) {
     return CLI_USAGE;
 }
 
+void cli_did_you_mean(struct cli *cli, const struct nearest *search, const char *otherwise) {
+    const str best = nearest_best(search);
+    if (best.len)
+        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(best));
+    else if (otherwise)
+        diag_help(&cli->sink, "%s", otherwise);
+}
+
 void cli_write_error(str text) {
     fwrite(text.ptr, 1, text.len, stderr);
 }

@@ -80,12 +80,9 @@ static bool read_axes(struct cli *cli, uint32_t *axes) {
             nearest_offer(&search, str_from(extreme_axes[axis++].name));
         if (axis == EXTREME_AXES) {
             cli_usage(cli, cli_option_place(cli, "axis"), "there is no axis '%.*s'", STR_ARG(name));
-            if (nearest_best(&search).len)
-                diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
-            else
-                diag_help(&cli->sink,
-                          "the axes are move, scale, distance, index, exponent, sliver, light, camera, "
-                          "coplanar and gap");
+            cli_did_you_mean(cli, &search,
+                             "the axes are move, scale, distance, index, exponent, sliver, light, camera, "
+                             "coplanar and gap");
             return false;
         }
         *axes |= 1u << axis;
@@ -111,10 +108,7 @@ static bool read_alternative(struct cli *cli, enum render_alternative *alternati
         }
     }
     cli_usage(cli, cli_option_place(cli, "study"), "there is no study '%s'", text);
-    if (nearest_best(&search).len)
-        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
-    else
-        diag_help(&cli->sink, "docs/accuracy.md lists them, under 'Alternatives'");
+    cli_did_you_mean(cli, &search, "docs/accuracy.md lists them, under 'Alternatives'");
     return false;
 }
 

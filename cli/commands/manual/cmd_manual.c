@@ -23,8 +23,7 @@ static int kind_of(struct cli *cli, const char *const *kinds) {
     }
     cli_usage(cli, cli_operand_place(cli, 0), "there is no manual '%s'; write page, bash, zsh or fish",
               cli->operands[0]);
-    if (nearest_best(&search).len)
-        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
+    cli_did_you_mean(cli, &search, NULL);
     return -1;
 }
 

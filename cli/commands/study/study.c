@@ -28,15 +28,11 @@ static bool read_max_error(struct cli *cli, struct tradeoff_options *options) {
         struct nearest search = nearest_begin(name);
         for (int i = 0; i < METRIC_COUNT; i++)
             nearest_offer(&search, str_from(metric_infos[i].name));
-        const str best = nearest_best(&search);
         cli_usage(cli, cli_option_place(cli, "max-error"), "--max-error does not know the metric '%.*s'",
                   STR_ARG(name));
-        if (best.len)
-            diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(best));
-        else
-            diag_help(
-                &cli->sink,
-                "write METRIC=X, where METRIC is one of mae, rmse, relmse, largest, psnr, ssim, flip, share");
+        cli_did_you_mean(
+            cli, &search,
+            "write METRIC=X, where METRIC is one of mae, rmse, relmse, largest, psnr, ssim, flip, share");
         return false;
     }
     if (equals && number_parse(str_from(equals + 1), &options->max_error) == NUMBER_OK &&
