@@ -329,6 +329,12 @@ static double coarsest_levels(const struct render_job *job) {
     return levels;
 }
 
+static int choose_settings(struct render_job *job, struct asset_store *store) {
+    if (!GLINT_DEVICE)
+        return cli_left_out(job->cli, "'--max-error' and '--max-time'");
+    return cli_choose_settings(job->cli, coarsest_levels(job), store, &job->gpu);
+}
+
 int render_whole(struct render_job *job) {
     struct cli *cli = job->cli;
     interrupt_catch();
@@ -337,8 +343,7 @@ int render_whole(struct render_job *job) {
     struct asset_store *store = asset_store_create();
     if (cli->options.stats)
         job->timeline = ARENA_NEW(&cli->arena, struct timeline);
-    int status =
-        cli_has_study(cli) ? cli_choose_settings(cli, coarsest_levels(job), store, &job->gpu) : CLI_OK;
+    int status = cli_has_study(cli) ? choose_settings(job, store) : CLI_OK;
     if (status == CLI_OK)
         status = run_job(job, store);
     shot_close(&job->shot);
@@ -362,7 +367,11 @@ static int audit_place(const struct cli *cli) {
 int cmd_render(struct cli *cli) {
     struct render_job job = {.cli = cli};
     if (batch_is_wanted(cli))
+#ifdef __EMSCRIPTEN__
+        return cli_left_out(cli, "films, and renders one picture");
+#else
         return cmd_batch(cli);
+#endif
     if (cli->operand_count == 0)
         return cli_usage(cli, 1, "'glint render' needs SCENE");
     const int outputs = render_take_outputs(&job);
