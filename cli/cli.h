@@ -3,18 +3,11 @@
 #ifndef GLINT_CLI_CLI_H
 #define GLINT_CLI_CLI_H
 
-#include "cli/options/options_batch.h"
-#include "cli/options/options_farm.h"
-#include "cli/options/options_part.h"
-#include "cli/options/options_test.h"
-#include "cli/options/words.h"
-#include "cli/options_measure.h"
-#include "core/limits.h"
-#include "core/strbuf.h"
+#include "cli/options.h"
+#include "cli/words.h"
+#include "core/nearest.h"
 #include "diag/diag.h"
-#include "diag/diag_policy.h"
 #include "load/session.h"
-#include "picture/formats/formats.h"
 #include "picture/write/image.h"
 
 enum cli_exit {
@@ -28,93 +21,6 @@ enum cli_exit {
     CLI_INTERRUPTED = 130,
     CLI_PIPE = 141, // who read standard output has closed it, as if by SIGPIPE
     CLI_TERMINATED = 143,
-};
-
-enum cli_color {
-    CLI_COLOR_AUTO,
-    CLI_COLOR_ALWAYS,
-    CLI_COLOR_NEVER,
-};
-
-enum cli_stats {
-    CLI_STATS_NONE,
-    CLI_STATS_TEXT,
-    CLI_STATS_JSON,
-};
-
-// A picture that render is to write.
-struct cli_output {
-    const char *path; // "-": standard output
-    enum image_format format;
-    bool is_part; // a file of parts (render/parts), of no such format
-    int arg;      // its place on the command line; 0: it was not given
-};
-
-struct cli_outputs {
-    struct cli_output *items;
-    uint32_t count, capacity;
-};
-
-struct cli_list {
-    str *items;
-    uint32_t count, capacity;
-};
-
-struct cli_options {
-    const char *output;                     // the last that was given; NULL: none
-    struct cli_outputs outputs;             // all of them, in their order
-    int32_t width, height, samples, repeat; // 0: not given
-    int32_t depth, quality;                 // of pictures; 0: not given
-    int compression;                        // enum image_compression
-    uint32_t aovs;                          // bits of enum aov
-    int aov_arg;
-    int32_t sample; // of a pixel, from 0
-    int sample_arg;
-    str camera;
-    const char *device;     // NULL: not given
-    const char *format;     // NULL: not given
-    const char *thresholds; // NULL: not given
-    const char *axes;       // NULL: not given
-    int axes_arg;
-    const char *alternative; // NULL: not given
-    int alternative_arg;
-    const char *schema; // NULL: not given
-    const char *as;     // of standard input: "yaml" or "xml"; NULL: not given
-    const char *base;   // folder of standard input; NULL: not given
-    enum cli_color color;
-    const char *config; // NULL: not given
-    int format_arg;
-    struct cli_list sets, asset_paths;
-    struct cli_list severities; // the codes whose severity was given
-    struct limits limits;
-    struct diag_policy policy; // what a check reports, over the folder's configuration
-    struct cli_measure measure;
-    struct cli_part part;
-    struct cli_batch batch;
-    struct cli_farm farm;
-    struct cli_test test;
-    enum cli_stats stats;
-    bool quiet, verbose, ir, help, limit_help, version;
-    bool as_file, no_cache; // of the reference
-    bool skip_pixels;       // of images, when checking
-    bool audit, has_max_off;
-    double max_off;            // share of pixels
-    int audit_arg;             // the place of either
-    bool check, diff, upgrade; // of what changes files
-    bool list;
-    bool watch;
-    bool force; // overwrite
-    bool trust_record;
-    unsigned untrusted_seconds, untrusted_megabytes; // 0 seconds: not given
-    bool changed;
-    int changed_arg;            // as output_arg
-    const char *baseline;       // NULL: not given
-    const char *write_baseline; // NULL: not given
-    int write_baseline_arg;
-    int fix; // enum fix_level
-    int fix_arg;
-    int output_arg;  // its place on the command line; 0: not given
-    int as_file_arg; // as output_arg
 };
 
 // Standard input that an operand '-' names.
@@ -152,61 +58,8 @@ struct cli_command {
     const char *summary;
     const char *details;               // paragraphs and examples for --help
     int least_operands, most_operands; // most: -1 means any number
-    int (*run)(struct cli *cli);
+    int (*run)(struct cli *cli);       // NULL: this build has no such command
 };
-
-// Reads argv into cli->options and cli->operands; mistakes go to cli->sink. `command` NULL: the program's
-// own options only.
-bool cli_parse_options(struct cli *cli, const struct cli_command *command, int first);
-// What --format asks for: its index in `kinds`, which NULL ends; the first if it was not given. false: it is
-// not one of them, and the mistake is in cli->sink.
-bool cli_format(struct cli *cli, const char *const *kinds, int *kind);
-enum cli_policy_option {
-    CLI_POLICY_SEVERITY,
-    CLI_POLICY_IGNORE,
-    CLI_POLICY_ONLY,
-    CLI_POLICY_FAIL_ON,
-};
-// One of these options; false: a mistake went to cli->sink.
-bool cli_policy_apply(struct cli *cli, int arg, enum cli_policy_option option, const char *value);
-// Reads the settings that --config names, and lays the other options over them. false: a mistake in the file
-// went to cli->sink.
-bool cli_take_config(struct cli *cli);
-// Values of options; false: a mistake went to cli->sink.
-bool cli_read_count(struct cli *cli, int arg, const char *name, const char *text, int64_t least, int64_t most,
-                    int32_t *out);
-bool cli_read_aovs(struct cli *cli, int arg, const char *text);
-bool cli_read_depth(struct cli *cli, int arg, const char *text);
-bool cli_read_compression(struct cli *cli, int arg, const char *text);
-bool cli_read_size(struct cli *cli, int arg, const char *text);
-bool cli_read_limit(struct cli *cli, int arg, const char *text);
-bool cli_read_max_messages(struct cli *cli, int arg, const char *text);
-bool cli_read_folder(struct cli *cli, int arg, const char *name, const char *text);
-// "60,2048": seconds and megabytes; NULL: the defaults.
-bool cli_read_untrusted(struct cli *cli, int arg, const char *text);
-// The index of `text` among `words`, which NULL ends; -1: it is not one of them, and the mistake is in
-// cli->sink.
-int cli_read_word(struct cli *cli, int arg, const char *name, const char *text, const char *const *words);
-// The options of a command (NULL: of the program), one line each.
-void cli_option_help(struct strbuf *out, const struct cli_command *command);
-// An option as --help shows it.
-struct cli_option_text {
-    const char *name;
-    const char *argument; // NULL: none; "[=X]": optional; "a|b": one of these words
-    const char *doc;
-    char letter; // 0: none
-};
-// The option of a command (NULL: of the program) at number `at` or the next one; returns the number after it,
-// 0 if there is none.
-int cli_next_option(const struct cli_command *command, int at, struct cli_option_text *option);
-
-// Whether a command takes an option.
-bool cli_has_option(const struct cli_command *command, const char *name);
-// The argument that gives an option; 0: it is not given.
-int cli_option_place(const struct cli *cli, const char *name);
-// For an option that goes together with another one, or does not: true, with a mistake in cli->sink, if it
-// was given all the same.
-bool cli_has_no_effect(struct cli *cli, const char *name, const char *why);
 
 // Reads standard input if an operand of the command names it as a scene; the operand becomes its path, which
 // cli_session_options knows. CLI_OK, or an exit code with the mistake reported.
@@ -226,6 +79,8 @@ span cli_place(const struct cli *cli, int arg);
 int cli_operand_place(const struct cli *cli, int index);
 // Reports one error of the command line and returns CLI_USAGE.
 int cli_usage(struct cli *cli, int arg, const char *format, ...) __attribute__((format(printf, 3, 4)));
+// Adds to it the name that may be meant, or else, unless it is NULL, other help.
+void cli_did_you_mean(struct cli *cli, const struct nearest *search, const char *otherwise);
 // Prints diagnostics of the command line and of files in cli->sources.
 void cli_print_sink(struct cli *cli, const struct diag_sink *sink);
 // Prints a session's diagnostics, notes too unless `quiet`; returns their exit code.

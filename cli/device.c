@@ -48,7 +48,7 @@ static const char *driver_variable(void) {
 }
 
 // A program without devices is what its package is for; what has them is another package.
-static int left_out(struct cli *cli, const char *place, const char *error) {
+static int no_devices(struct cli *cli, const char *place, const char *error) {
     cli_error(cli, DIAG_NO_VULKAN, place,
               "the package 'glint' draws on devices; 'glint render --device reference' needs none", "%s",
               error);
@@ -79,7 +79,7 @@ int cli_list_devices(struct cli *cli) {
     uint32_t count = 0;
     const enum gpu_status found = gpu_list(items, DEVICES_MAX, &count, error);
     if (found != GPU_OK)
-        return found == GPU_LEFT_OUT ? left_out(cli, "devices", error) : no_vulkan(cli, "devices", error);
+        return found == GPU_LEFT_OUT ? no_devices(cli, "devices", error) : no_vulkan(cli, "devices", error);
     struct strbuf text;
     strbuf_init(&text);
     for (uint32_t i = 0; i < count && i < DEVICES_MAX; i++) {
@@ -126,7 +126,7 @@ static int report_opening(struct cli *cli, enum gpu_status status, const char *e
     if (CLI_HAS_DEVICES && status == GPU_OK)
         return CLI_OK;
     if (status == GPU_LEFT_OUT)
-        left_out(cli, "device", error);
+        no_devices(cli, "device", error);
     else if (status == GPU_NO_DEVICE)
         no_device(cli, asked, error);
     else if (status == GPU_NO_LOADER || status == GPU_NO_DRIVER)
@@ -189,6 +189,16 @@ int cli_open_device(struct cli *cli, struct gpu **gpu) {
     char error[GPU_ERROR_BYTES] = "";
     const struct gpu_options options = cli_device_options(cli);
     return report_opening(cli, gpu_create(&options, gpu, error), error);
+}
+
+int cli_left_out(struct cli *cli, const char *what) {
+    struct gpu *gpu = NULL;
+    if (cli_has_option(cli->command, "device") && cli_open_device(cli, &gpu) != CLI_OK)
+        return CLI_DEVICE;
+    cli_close_device(cli, gpu);
+    cli_usage(cli, 1, "this build of glint has no %s", what);
+    diag_help(&cli->sink, "the installed glint has that: docs/install.md");
+    return CLI_USAGE;
 }
 
 int cli_open_named(struct cli *cli, const char *name, struct gpu **gpu) {

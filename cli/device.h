@@ -17,6 +17,9 @@ const char *cli_device_wanted(const struct cli *cli);
 bool cli_device_is_reference(const struct cli *cli);
 // For gpu_create, where nothing is printed if it fails. What they name lives as long as `cli`.
 struct gpu_options cli_device_options(struct cli *cli);
+// Reports that this build leaves out `what`, a part of the command that runs; returns the exit code. That
+// there is no device is the reason where the command draws on one.
+int cli_left_out(struct cli *cli, const char *what);
 // CLI_OK, or CLI_DEVICE with an error printed. *gpu is the caller's to destroy.
 int cli_open_device(struct cli *cli, struct gpu **gpu);
 // The same for a device by its number or name, whatever --device says.

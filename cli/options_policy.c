@@ -28,15 +28,13 @@ static bool refuse_word(struct cli *cli, int arg, const char *name, str word, co
     for (int i = 0; words[i]; i++)
         nearest_offer(&search, str_from(words[i]));
     cli_usage(cli, arg, "--%s does not know '%.*s'", name, STR_ARG(word));
-    if (nearest_best(&search).len)
-        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
-    else
-        diag_help(&cli->sink, words == diag_fail_words ? "it takes error or warning"
-                                                       : "a severity is error, warning, note or off");
+    cli_did_you_mean(cli, &search,
+                     words == diag_fail_words ? "it takes error or warning"
+                                              : "a severity is error, warning, note or off");
     return false;
 }
 
-static bool read_severity(struct cli *cli, int arg, const char *text) {
+bool cli_read_severity(struct cli *cli, int arg, const struct option_row *row, const char *text) {
     size_t length = strcspn(text, "=");
     str codes = {text, length};
     if (text[length] != '=') {
@@ -53,15 +51,15 @@ static bool read_severity(struct cli *cli, int arg, const char *text) {
     *ARENA_PUSH(&cli->arena, &cli->options.severities) = codes;
     enum diag_policy_status status = diag_policy_level(&cli->options.policy, codes, word);
     if (status == DIAG_POLICY_BAD_WORD)
-        return refuse_word(cli, arg, "severity", word, diag_level_words);
-    return refuse_codes(cli, arg, "severity", codes, status);
+        return refuse_word(cli, arg, row->name, word, diag_level_words);
+    return refuse_codes(cli, arg, row->name, codes, status);
 }
 
-static bool read_ignore(struct cli *cli, int arg, const char *text) {
+bool cli_read_ignore(struct cli *cli, int arg, const struct option_row *row, const char *text) {
     char folder[4096];
     str pattern = str_from(text);
     if (diag_is_code_text(pattern))
-        return refuse_codes(cli, arg, "ignore", pattern,
+        return refuse_codes(cli, arg, row->name, pattern,
                             diag_policy_level(&cli->options.policy, pattern, STR("off")));
     if (pattern.len == 0 || !getcwd(folder, sizeof folder)) {
         cli_usage(cli, arg,
@@ -72,20 +70,14 @@ static bool read_ignore(struct cli *cli, int arg, const char *text) {
     return true;
 }
 
-bool cli_policy_apply(struct cli *cli, int arg, enum cli_policy_option option, const char *value) {
-    struct diag_policy *policy = &cli->options.policy;
-    switch (option) {
-    case CLI_POLICY_SEVERITY:
-        return read_severity(cli, arg, value);
-    case CLI_POLICY_IGNORE:
-        return read_ignore(cli, arg, value);
-    case CLI_POLICY_ONLY:
-        return refuse_codes(cli, arg, "only", str_from(value), diag_policy_only(policy, str_from(value)));
-    case CLI_POLICY_FAIL_ON:
-        return diag_policy_fail_on(policy, str_from(value)) == DIAG_POLICY_SET ||
-               refuse_word(cli, arg, "fail-on", str_from(value), diag_fail_words);
-    }
-    return false;
+bool cli_read_only(struct cli *cli, int arg, const struct option_row *row, const char *text) {
+    return refuse_codes(cli, arg, row->name, str_from(text),
+                        diag_policy_only(&cli->options.policy, str_from(text)));
+}
+
+bool cli_read_fail_on(struct cli *cli, int arg, const struct option_row *row, const char *text) {
+    return diag_policy_fail_on(&cli->options.policy, str_from(text)) == DIAG_POLICY_SET ||
+           refuse_word(cli, arg, row->name, str_from(text), diag_fail_words);
 }
 
 static void take(void *context) {

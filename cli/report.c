@@ -53,6 +53,14 @@ int cli_usage(struct cli *cli, int arg, const char *format, ...) {
     return CLI_USAGE;
 }
 
+void cli_did_you_mean(struct cli *cli, const struct nearest *search, const char *otherwise) {
+    const str best = nearest_best(search);
+    if (best.len)
+        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(best));
+    else if (otherwise)
+        diag_help(&cli->sink, "%s", otherwise);
+}
+
 void cli_write_error(str text) {
     fwrite(text.ptr, 1, text.len, stderr);
 }
@@ -139,7 +147,7 @@ int cli_try_scene(struct cli *cli, const char *path) {
 int cli_interrupted(struct cli *cli) {
     const int signal_number = interrupt_signal();
     cli_error(cli, DIAG_INTERRUPTED, cli->operands[0], NULL, "interrupted; nothing was written");
-    if (cli->options.part.resume_arg) // what is there already stays, and the same command goes on
+    if (cli->options.part.resume) // what is there already stays, and the same command goes on
         return CLI_STOPPED;
     return signal_number == SIGTERM ? CLI_TERMINATED : CLI_INTERRUPTED;
 }

@@ -81,13 +81,14 @@ static void allow_options(struct allowed *a, const struct cli_command *command) 
     const struct cli_options *o = &a->cli->options;
     for (uint32_t i = 0; i < o->asset_paths.count; i++)
         files_add_root(&a->files, o->asset_paths.items[i]);
-    allow_given(a, o->baseline);
-    allow_given(a, o->test.bounds);
-    allow_given(a, o->batch.list);
+    for (const struct option_row *row = NULL; (row = cli_next_option(command, row)) != NULL;) {
+        const void *field = (const char *)o + row->offset;
+        if (row->kind == OPTION_READ)
+            allow_given(a, *(const char *const *)field);
+        else if (row->kind == OPTION_WRITTEN)
+            allow_output(a, *(const char *const *)field);
+    }
     allow_output(a, o->output);
-    allow_output(a, o->write_baseline);
-    allow_output(a, o->test.html);
-    allow_output(a, o->test.junit);
     for (uint32_t i = 0; i < o->outputs.count; i++)
         allow_output(a, o->outputs.items[i].path);
     if (strcmp(command->name, "render") == 0 && o->outputs.count == 0)

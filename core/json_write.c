@@ -112,7 +112,9 @@ void json_write_null(struct json_writer *writer, const char *key) {
     strbuf_cstr(writer->out, "null");
 }
 
-void json_open_report(struct json_writer *writer, const char *name, unsigned version) {
+void json_report_begin(struct json_writer *writer, struct strbuf *out, unsigned flat_depth, const char *name,
+                       unsigned version) {
+    json_writer_init(writer, out, flat_depth);
     json_open_object(writer, NULL);
     json_write_text(writer, "report", str_from(name));
     json_write_integer(writer, "version", version);
@@ -120,4 +122,9 @@ void json_open_report(struct json_writer *writer, const char *name, unsigned ver
 
 void json_end(struct json_writer *writer) {
     strbuf_char(writer->out, '\n');
+}
+
+void json_report_end(struct json_writer *writer) {
+    json_close_object(writer);
+    json_end(writer);
 }

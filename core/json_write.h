@@ -21,9 +21,11 @@ struct json_writer {
 };
 
 void json_writer_init(struct json_writer *writer, struct strbuf *out, unsigned flat_depth);
-// The root of a report, an object that says which one it is: "glint pick", in which version of its format.
-// docs/reports.md tells what a version promises.
-void json_open_report(struct json_writer *writer, const char *name, unsigned version);
+// A report: an object that says which one it is, "glint pick", in which version of its format, and its end.
+// docs/reports.md says what a version promises.
+void json_report_begin(struct json_writer *writer, struct strbuf *out, unsigned flat_depth, const char *name,
+                       unsigned version);
+void json_report_end(struct json_writer *writer);
 // `key` NULL: an item of a list, or the root.
 void json_open_object(struct json_writer *writer, const char *key);
 void json_close_object(struct json_writer *writer);

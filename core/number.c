@@ -217,6 +217,34 @@ enum number_status number_parse_integer(str text, int64_t *value) {
     return NUMBER_OK;
 }
 
+bool number_parse_whole(str text, int64_t least, int64_t most, int32_t *value) {
+    int64_t number;
+    if (number_parse_integer(text, &number) != NUMBER_OK || number < least || number > most)
+        return false;
+    *value = (int32_t)number;
+    return true;
+}
+
+bool number_parse_real(str text, double least, double most, double *value) {
+    double number;
+    if (number_parse(text, &number) != NUMBER_OK || !(number >= least && number <= most))
+        return false;
+    *value = number;
+    return true;
+}
+
+bool number_parse_size(str text, const char *signs, int32_t most, int32_t *width, int32_t *height) {
+    size_t x = 0;
+    int32_t first;
+    while (x < text.len && (text.ptr[x] == '\0' || !strchr(signs, text.ptr[x])))
+        x++;
+    if (x == text.len || !number_parse_whole(str_slice(text, 0, x), 1, most, &first) ||
+        !number_parse_whole(str_slice(text, x + 1, text.len), 1, most, height))
+        return false;
+    *width = first;
+    return true;
+}
+
 const char *number_problem(enum number_status status) {
     switch (status) {
     case NUMBER_OK:

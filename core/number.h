@@ -37,6 +37,11 @@ size_t number_take(str text, double *value);
 // Digits with an optional sign, no superfluous leading zeros, within the range of int64_t. A number in
 // another form is NUMBER_NOT_INTEGER.
 enum number_status number_parse_integer(str text, int64_t *value);
+// The same within a range, whose ends belong to it. false: it is something else, and *value stays.
+bool number_parse_whole(str text, int64_t least, int64_t most, int32_t *value);
+bool number_parse_real(str text, double least, double most, double *value);
+// "640x480": two whole numbers from 1 to `most`, with one of `signs` between them. false: the values stay.
+bool number_parse_size(str text, const char *signs, int32_t most, int32_t *width, int32_t *height);
 // What is wrong, as words that continue "...": "has a decimal comma"; never NULL.
 const char *number_problem(enum number_status status);
 

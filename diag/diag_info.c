@@ -1,4 +1,5 @@
 // The codes with their sentences: the only object that a changed sentence rebuilds.
+#include "core/ranges.h"
 #include "diag/diag.h"
 #include "picture/formats/formats.h"
 

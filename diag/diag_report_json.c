@@ -3,7 +3,6 @@
 #include "diag/diag_report_text.h"
 
 enum {
-    REPORT_VERSION = 1,
     FLAT_DEPTH = 5, // a line per finding
 };
 
@@ -123,10 +122,7 @@ void report_json(struct strbuf *out, const struct report *report) {
         notes += report->scenes[i].notes;
         truncated = truncated || report->scenes[i].left_out.count > 0;
     }
-    json_writer_init(&w, out, FLAT_DEPTH);
-    json_open_object(&w, NULL);
-    json_write_text(&w, "report", STR("glint check"));
-    json_write_integer(&w, "version", REPORT_VERSION);
+    json_report_begin(&w, out, FLAT_DEPTH, "glint check", 1);
     json_write_text(&w, "program", str_from(report->program_version));
     counts(&w, errors, warnings, notes);
     json_write_boolean(&w, "truncated", truncated);
@@ -134,6 +130,5 @@ void report_json(struct strbuf *out, const struct report *report) {
     for (uint32_t i = 0; i < report->scene_count; i++)
         scene(&w, &report->scenes[i]);
     json_close_list(&w);
-    json_close_object(&w);
-    json_end(&w);
+    json_report_end(&w);
 }

@@ -62,8 +62,8 @@ enum schema_unit {
 enum schema_range {
     SCHEMA_RANGE_NONE, // kinds without numbers
     SCHEMA_RANGE_VERSION,
-    SCHEMA_RANGE_EXTENT,     // 1..16384
-    SCHEMA_RANGE_SAMPLES,    // 1..4096
+    SCHEMA_RANGE_EXTENT,     // 1..RANGE_SIDE_MOST
+    SCHEMA_RANGE_SAMPLES,    // 1..RANGE_SAMPLES_MOST
     SCHEMA_RANGE_DEPTH,      // 0..64
     SCHEMA_RANGE_FRACTION,   // 0..1
     SCHEMA_RANGE_COORDINATE, // -1e18..1e18
@@ -80,8 +80,8 @@ enum schema_range {
     SCHEMA_RANGE_SHIFT,      // -1e6..1e6
     SCHEMA_RANGE_SIZE,       // 0..1e18
     SCHEMA_RANGE_OPENING,    // 0..180
-    SCHEMA_RANGE_FRAMES,     // 1..100000
-    SCHEMA_RANGE_FRAME,      // 0..100000
+    SCHEMA_RANGE_FRAMES,     // 1..RANGE_FRAMES_MOST
+    SCHEMA_RANGE_FRAME,      // 0..RANGE_FRAMES_MOST
     SCHEMA_RANGE_RATE,       // 0.001..1000
     SCHEMA_RANGE_COUNT,
 };

@@ -3,6 +3,7 @@
 
 #include "core/arena.h"
 #include "core/number.h"
+#include "core/ranges.h"
 #include "core/vec3.h"
 #include "grammar/ir_value.h"
 #include "grammar/mesh_format.h"
@@ -15,8 +16,10 @@
 static const struct schema_range_info ranges[SCHEMA_RANGE_COUNT] = {
     [SCHEMA_RANGE_NONE] = {"none", -INFINITY, INFINITY, true, false, "any finite number"},
     [SCHEMA_RANGE_VERSION] = {"version", 1, 1, false, false, "1"},
-    [SCHEMA_RANGE_EXTENT] = {"extent", 1, 16384, false, false, "from 1 to 16384"},
-    [SCHEMA_RANGE_SAMPLES] = {"samples", 1, 4096, false, false, "from 1 to 4096"},
+    [SCHEMA_RANGE_EXTENT] = {"extent", 1, RANGE_SIDE_MOST, false, false,
+                             "from 1 to " RANGE_TEXT(RANGE_SIDE_MOST)},
+    [SCHEMA_RANGE_SAMPLES] = {"samples", 1, RANGE_SAMPLES_MOST, false, false,
+                              "from 1 to " RANGE_TEXT(RANGE_SAMPLES_MOST)},
     [SCHEMA_RANGE_DEPTH] = {"depth", 0, 64, false, false, "from 0 to 64"},
     [SCHEMA_RANGE_FRACTION] = {"fraction", 0, 1, false, false, "from 0 to 1"},
     [SCHEMA_RANGE_COORDINATE] = {"coordinate", -1e18, 1e18, false, false, "from -1e18 to 1e18"},
@@ -33,9 +36,12 @@ static const struct schema_range_info ranges[SCHEMA_RANGE_COUNT] = {
     [SCHEMA_RANGE_SHIFT] = {"shift", -1e6, 1e6, false, false, "from -1e6 to 1e6"},
     [SCHEMA_RANGE_SIZE] = {"size", 0, 1e18, false, false, "from 0 to 1e18"},
     [SCHEMA_RANGE_OPENING] = {"opening", 0, 180, false, false, "from 0 to 180"},
-    [SCHEMA_RANGE_FRAMES] = {"frames", 1, 100000, false, false, "from 1 to 100000"},
-    [SCHEMA_RANGE_FRAME] = {"frame", 0, 100000, false, false, "from 0 to 100000"},
-    [SCHEMA_RANGE_RATE] = {"rate", 0.001, 1000, false, false, "from 0.001 to 1000"},
+    [SCHEMA_RANGE_FRAMES] = {"frames", 1, RANGE_FRAMES_MOST, false, false,
+                             "from 1 to " RANGE_TEXT(RANGE_FRAMES_MOST)},
+    [SCHEMA_RANGE_FRAME] = {"frame", 0, RANGE_FRAMES_MOST, false, false,
+                            "from 0 to " RANGE_TEXT(RANGE_FRAMES_MOST)},
+    [SCHEMA_RANGE_RATE] = {"rate", RANGE_RATE_LEAST, RANGE_RATE_MOST, false, false,
+                           "from " RANGE_TEXT(RANGE_RATE_LEAST) " to " RANGE_TEXT(RANGE_RATE_MOST)},
 };
 
 const struct schema_range_info *schema_range_info(enum schema_range range) {

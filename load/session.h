@@ -54,17 +54,14 @@ struct session_options {
     // that may go on beside that. NULL: nothing.
     void (*on_text)(void *context);
     void *on_text_context;
-    bool whole_picture; // all its pixels are needed at once: more than SESSION_PIXELS_MOST are an error
-    bool pixels_later;  // session_load need not wait for the background's pixels: session_settle does
+    bool whole_picture;        // all its pixels are needed at once: more than RANGE_PIXELS_MOST are an error
+    bool pixels_later;         // session_load need not wait for the background's pixels: session_settle does
     struct timeline *timeline; // may be NULL
     bool unnamed; // nothing is read but its beginning: the file begins as a scene does, and has another name
     struct session_kept *kept; // of this scene: its files are not read again (session_kept.h). NULL: they are
     bool judged; // the caller judges the findings by policy and comments (load/check.h): they are not yet
                  // sorted
 };
-
-// Most pixels of a picture, or of a part of one, that is held in memory as a whole.
-#define SESSION_PIXELS_MOST 67108864
 
 // Most samples of a pixel where session_options.error is given, and neither scene nor options say enough.
 #define SESSION_SAMPLES_MOST 1024

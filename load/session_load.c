@@ -1,5 +1,6 @@
 // From path and options to a loaded session: the stages one after the other.
 #include "core/clock.h"
+#include "core/ranges.h"
 #include "core/strbuf.h"
 #include "core/timeline.h"
 #include "grammar/ir.h"
@@ -230,7 +231,7 @@ void session_report_pixels(struct session *session) {
     diag_add(&session->sink, DIAG_TOO_MANY_PIXELS,
              is_written ? ir_place_label(&session->origin, &scene->head) : SPAN_NONE,
              "the picture has %d x %d, that is %lld pixels; at most %d can be held at once", image->width,
-             image->height, (long long)image->width * image->height, SESSION_PIXELS_MOST);
+             image->height, (long long)image->width * image->height, RANGE_PIXELS_MOST);
     diag_help(&session->sink,
               image->error > 0 ? "give all pixels the same samples, without 'error', or choose a smaller size"
                                : "choose a smaller size; 'glint render' writes large pictures in bands");
@@ -241,8 +242,8 @@ void session_report_pixels(struct session *session) {
 static void check_pixels(struct session *session) {
     const struct ir_image *scene = &session->scene->image, *image = session->image;
     const int64_t pixels = (int64_t)image->width * image->height;
-    const bool is_told = scene->error > 0 && (int64_t)scene->width * scene->height > SESSION_PIXELS_MOST;
-    if (pixels > SESSION_PIXELS_MOST && !is_told && (session->options.whole_picture || image->error > 0))
+    const bool is_told = scene->error > 0 && (int64_t)scene->width * scene->height > RANGE_PIXELS_MOST;
+    if (pixels > RANGE_PIXELS_MOST && !is_told && (session->options.whole_picture || image->error > 0))
         session_report_pixels(session);
 }
 

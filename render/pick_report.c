@@ -405,8 +405,7 @@ static void json_differences(struct json_writer *w, const struct pick *pick) {
 
 void pick_json(const struct pick *pick, struct strbuf *out) {
     struct json_writer w;
-    json_writer_init(&w, out, FLAT_DEPTH);
-    json_open_report(&w, "glint pick", 1);
+    json_report_begin(&w, out, FLAT_DEPTH, "glint pick", 1);
     json_write_integer(&w, "x", pick->x);
     json_write_integer(&w, "y", pick->y);
     json_write_integer(&w, "width", (uint64_t)pick->session->image->width);
@@ -418,6 +417,5 @@ void pick_json(const struct pick *pick, struct strbuf *out) {
         json_differences(&w, pick);
     }
     json_path(&w, "reference", pick, PICK_REFERENCE);
-    json_close_object(&w);
-    json_end(&w);
+    json_report_end(&w);
 }

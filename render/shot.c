@@ -1,6 +1,7 @@
 #include "render/shot.h"
 
 #include "core/clock.h"
+#include "core/ranges.h"
 #include "grammar/ir.h"
 #include "load/session_precision.h"
 #include "load/where.h"
@@ -74,7 +75,7 @@ bool shot_fits(struct session *session, const struct shot_region *region) {
     const struct ir_image *image = session->image;
     const uint64_t pixels = region && region->width ? (uint64_t)region->width * region->height
                                                     : (uint64_t)image->width * (uint64_t)image->height;
-    if (pixels <= SESSION_PIXELS_MOST)
+    if (pixels <= RANGE_PIXELS_MOST)
         return true;
     session_report_pixels(session);
     return false;

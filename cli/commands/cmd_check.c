@@ -230,7 +230,7 @@ static int add_changed(struct check *check) {
     check->named += check->names.others.count;
     return changed->names_folders
                ? add_operands(check)
-               : add_folder(check, cli->options.changed_arg, changed->searched.items[0].ptr);
+               : add_folder(check, cli_option_place(cli, "changed"), changed->searched.items[0].ptr);
 }
 
 // Leaves out the scenes that read nothing that changed.
@@ -399,7 +399,7 @@ static bool read_baseline(struct check *check, struct baseline *baseline) {
     if (!cli->options.baseline)
         return true;
     if (cli->options.write_baseline) {
-        cli_usage(cli, cli->options.write_baseline_arg,
+        cli_usage(cli, cli_option_place(cli, "write-baseline"),
                   "--write-baseline writes all that is found; it does not go with --baseline");
         return false;
     }
@@ -468,7 +468,8 @@ static int find_changed(struct check *check, struct changed *changed) {
         const int status = cli_enter_untrusted(cli, cli->command, changed->searched.items[0].ptr);
         return status == CLI_OK ? add_changed(check) : status;
     }
-    int arg = changed->operand < 0 ? cli->options.changed_arg : cli_operand_place(cli, changed->operand);
+    int arg =
+        changed->operand < 0 ? cli_option_place(cli, "changed") : cli_operand_place(cli, changed->operand);
     diag_add(&cli->sink, DIAG_GIT, cli_place(cli, arg), "%.*s", STR_ARG(changed->why));
     diag_help(&cli->sink,
               "the first name is a revision if there is no such file; without a revision, files can "
@@ -536,15 +537,13 @@ int cmd_check(struct cli *cli) {
     if (!cli_format(cli, formats, &format))
         return CLI_USAGE;
     check.format = (enum check_format)format;
-    if (cli->options.quiet && cli_has_no_effect(cli, "verbose", "'--quiet' leaves notes out"))
-        return CLI_USAGE;
     if (cli->options.diff && !cli->options.fix)
         cli->options.fix = FIX_SAFE;
     if (cli->options.diff && check.format != CHECK_TEXT && !cli->options.output)
-        return cli_usage(cli, cli->options.fix_arg,
+        return cli_usage(cli, cli_option_place(cli, "fix"),
                          "the patch and the report would be mixed: write the report to a file with -o");
     if (cli->options.fix && !cli->options.diff && cli->stream.path.len)
-        return cli_usage(cli, cli->options.fix_arg,
+        return cli_usage(cli, cli_option_place(cli, "fix"),
                          "standard input cannot be changed: '--diff' shows the fixes as a patch");
     if (!getcwd(check.root, sizeof check.root))
         check.root[0] = '\0';

@@ -98,7 +98,7 @@ static int choose_space(struct comparison *c) {
     const struct cli_measure *m = &c->cli->options.measure;
     const bool linear = c->pictures[0].space == MEASURE_LINEAR && c->pictures[1].space == MEASURE_LINEAR;
     if (m->space == CLI_SPACE_LINEAR && !linear) {
-        cli_usage(c->cli, m->space_arg, "an 8-bit picture has only displayed values");
+        cli_usage(c->cli, cli_option_place(c->cli, "space"), "an 8-bit picture has only displayed values");
         diag_help(&c->cli->sink, "compare two .pfm or .hdr pictures, or leave '--space linear' out");
         return CLI_USAGE;
     }
@@ -193,9 +193,6 @@ int cmd_compare(struct cli *cli) {
     static const char *const formats[] = {"text", "json", NULL};
     int format;
     if (!cli_format(cli, formats, &format))
-        return CLI_USAGE;
-    if (!cli->options.measure.heatmap &&
-        cli_has_no_effect(cli, "heatmap-of", "no heat map is written without '--heatmap FILE'"))
         return CLI_USAGE;
     struct comparison *c = heap_zeroed(1, sizeof *c);
     if (!c) {

@@ -106,8 +106,7 @@ static void half(struct json_writer *w, const char *key, struct session *session
 
 static void make_json(struct comparison *c, struct strbuf *out) {
     struct json_writer w;
-    json_writer_init(&w, out, JSON_WRITE_DEPTH_MAX);
-    json_open_report(&w, "glint diff", 1);
+    json_report_begin(&w, out, JSON_WRITE_DEPTH_MAX, "glint diff", 1);
     json_open_list(&w, "differences");
     for (uint32_t i = 0; i < c->changes.count; i++) {
         const struct ir_change *change = &c->changes.items[i];
@@ -120,8 +119,7 @@ static void make_json(struct comparison *c, struct strbuf *out) {
         json_close_object(&w);
     }
     json_close_list(&w);
-    json_close_object(&w);
-    json_end(&w);
+    json_report_end(&w);
 }
 
 // ---- the command

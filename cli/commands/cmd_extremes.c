@@ -79,20 +79,17 @@ static bool read_axes(struct cli *cli, uint32_t *axes) {
         while (axis < EXTREME_AXES && !str_equal(name, str_from(extreme_axes[axis].name)))
             nearest_offer(&search, str_from(extreme_axes[axis++].name));
         if (axis == EXTREME_AXES) {
-            cli_usage(cli, cli->options.axes_arg, "there is no axis '%.*s'", STR_ARG(name));
-            if (nearest_best(&search).len)
-                diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
-            else
-                diag_help(&cli->sink,
-                          "the axes are move, scale, distance, index, exponent, sliver, light, camera, "
-                          "coplanar and gap");
+            cli_usage(cli, cli_option_place(cli, "axis"), "there is no axis '%.*s'", STR_ARG(name));
+            cli_did_you_mean(cli, &search,
+                             "the axes are move, scale, distance, index, exponent, sliver, light, camera, "
+                             "coplanar and gap");
             return false;
         }
         *axes |= 1u << axis;
         text += length + (text[length] == ',');
     }
     if (!*axes)
-        cli_usage(cli, cli->options.axes_arg, "--axis names no axis");
+        cli_usage(cli, cli_option_place(cli, "axis"), "--axis names no axis");
     return *axes;
 }
 
@@ -110,11 +107,8 @@ static bool read_alternative(struct cli *cli, enum render_alternative *alternati
             return true;
         }
     }
-    cli_usage(cli, cli->options.alternative_arg, "there is no study '%s'", text);
-    if (nearest_best(&search).len)
-        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
-    else
-        diag_help(&cli->sink, "docs/accuracy.md lists them, under 'Alternatives'");
+    cli_usage(cli, cli_option_place(cli, "study"), "there is no study '%s'", text);
+    cli_did_you_mean(cli, &search, "docs/accuracy.md lists them, under 'Alternatives'");
     return false;
 }
 
@@ -200,7 +194,7 @@ int cmd_extremes(struct cli *cli) {
     if (cli_device_is_reference(cli))
         return cli_usage(cli, 1, "extremes are measured against the reference: choose a device");
     if (report && strcmp(report, "-") != 0 && !str_ends_with_nocase(str_from(report), ".html"))
-        return cli_usage(cli, cli->options.output_arg, "the report '%s' must end in .html", report);
+        return cli_usage(cli, cli_option_place(cli, "output"), "the report '%s' must end in .html", report);
     int status = read_bounds(&job);
     if (status != CLI_OK)
         return status;

@@ -113,7 +113,8 @@ int cmd_format(struct cli *cli) {
     const struct cli_options *o = &cli->options;
     bool folder = files_is_folder(str_from(cli->operands[0]));
     if (o->output && (cli->operand_count > 1 || folder || o->check || o->diff))
-        return cli_usage(cli, o->output_arg, "-o needs exactly one file, and neither --check nor --diff");
+        return cli_usage(cli, cli_option_place(cli, "output"),
+                         "-o needs exactly one file, and neither --check nor --diff");
     strbuf_init(&f.out);
     for (int i = 0; i < cli->operand_count; i++) {
         const char *path = cli->operands[i];

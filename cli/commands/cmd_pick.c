@@ -58,7 +58,7 @@ static int pick_from(struct cli *cli, struct session *session, struct place plac
         return CLI_USAGE;
     const uint32_t sample = (uint32_t)cli->options.sample;
     if (cli->options.sample >= session->image->samples)
-        return cli_usage(cli, cli->options.sample_arg,
+        return cli_usage(cli, cli_option_place(cli, "sample"),
                          "the picture has %d sample%s per pixel, counted from 0", session->image->samples,
                          session->image->samples == 1 ? "" : "s");
     int status = cli_device_is_reference(cli) ? CLI_OK : cli_open_device(cli, &gpu);

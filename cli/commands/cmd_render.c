@@ -299,17 +299,18 @@ static bool noise_fits(struct render_job *job) {
     struct cli *cli = job->cli;
     const struct cli_measure *m = &cli->options.measure;
     if (m->noise > 0 && (m->time_s > 0 || cli_has_study(cli)))
-        cli_usage(cli, m->noise_arg,
+        cli_usage(cli, cli_option_place(cli, "noise"),
                   "--noise says when pixels end, and so do --time, --max-error and --max-time: choose one");
     else if (m->noise > 0 && cli_device_is_reference(cli))
-        cli_usage(cli, m->noise_arg,
+        cli_usage(cli, cli_option_place(cli, "noise"),
                   "the reference takes all samples of all pixels: --noise works on a device");
     else if (cli->options.aovs && (m->time_s > 0 || m->allow_resolution))
-        cli_usage(cli, cli->options.aov_arg,
+        cli_usage(cli, cli_option_place(cli, "aov"),
                   "--aov is for pictures of the samples and the size asked for: without --time and "
                   "--allow-resolution");
     else if (cli->options.aovs && job->output_count == 1 && render_uses_stdout(job))
-        cli_usage(cli, cli->options.aov_arg, "--aov writes files beside the picture: name one with -o");
+        cli_usage(cli, cli_option_place(cli, "aov"),
+                  "--aov writes files beside the picture: name one with -o");
     else
         return true;
     return false;
@@ -328,6 +329,12 @@ static double coarsest_levels(const struct render_job *job) {
     return levels;
 }
 
+static int choose_settings(struct render_job *job, struct asset_store *store) {
+    if (!GLINT_DEVICE)
+        return cli_left_out(job->cli, "'--max-error' and '--max-time'");
+    return cli_choose_settings(job->cli, coarsest_levels(job), store, &job->gpu);
+}
+
 int render_whole(struct render_job *job) {
     struct cli *cli = job->cli;
     interrupt_catch();
@@ -336,8 +343,7 @@ int render_whole(struct render_job *job) {
     struct asset_store *store = asset_store_create();
     if (cli->options.stats)
         job->timeline = ARENA_NEW(&cli->arena, struct timeline);
-    int status =
-        cli_has_study(cli) ? cli_choose_settings(cli, coarsest_levels(job), store, &job->gpu) : CLI_OK;
+    int status = cli_has_study(cli) ? choose_settings(job, store) : CLI_OK;
     if (status == CLI_OK)
         status = run_job(job, store);
     shot_close(&job->shot);
@@ -352,28 +358,39 @@ int render_whole(struct render_job *job) {
     return status;
 }
 
+// The later one of those that ask for an audit.
+static int audit_place(const struct cli *cli) {
+    const int audit = cli_option_place(cli, "audit"), most = cli_option_place(cli, "max-off");
+    return audit > most ? audit : most;
+}
+
 int cmd_render(struct cli *cli) {
     struct render_job job = {.cli = cli};
     if (batch_is_wanted(cli))
+#ifdef __EMSCRIPTEN__
+        return cli_left_out(cli, "films, and renders one picture");
+#else
         return cmd_batch(cli);
+#endif
     if (cli->operand_count == 0)
         return cli_usage(cli, 1, "'glint render' needs SCENE");
     const int outputs = render_take_outputs(&job);
     if (outputs != CLI_OK)
         return outputs;
     if (cli->options.as_file && !cli_device_is_reference(cli))
-        return cli_usage(cli, cli->options.as_file_arg, "'--as-file' works only with '--device reference'");
+        return cli_usage(cli, cli_option_place(cli, "as-file"),
+                         "'--as-file' works only with '--device reference'");
     if (has_useless_option(cli))
         return CLI_USAGE;
     if ((cli->options.audit || cli->options.has_max_off) && cli_device_is_reference(cli))
-        return cli_usage(cli, cli->options.audit_arg,
+        return cli_usage(cli, audit_place(cli),
                          "an audit compares a device's picture with the reference: choose a device");
     if (cli->options.measure.allow_resolution && !cli_has_study(cli))
-        return cli_usage(cli, cli->options.measure.allow_resolution_arg,
+        return cli_usage(cli, cli_option_place(cli, "allow-resolution"),
                          "'--allow-resolution' is for settings that --max-error or --max-time chooses");
     if (cli->options.measure.time_s > 0 && (cli_device_is_reference(cli) || cli->options.repeat))
         return cli_usage(
-            cli, cli->options.measure.time_arg,
+            cli, cli_option_place(cli, "time"),
             "'--time' works for one frame on a device: without --repeat and '--device reference'");
     if (!noise_fits(&job) || render_judge_part(&job) != CLI_OK || render_judge_bands(&job) != CLI_OK ||
         render_judge_done(&job) != CLI_OK)

@@ -114,7 +114,6 @@ int cmd_schema(struct cli *cli) {
     int status =
         cli_usage(cli, cli_operand_place(cli, 0),
                   "'%s' is not a kind of schema; write json, relaxng, rnc, markdown or 'install'", wanted);
-    if (nearest_best(&search).len)
-        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
+    cli_did_you_mean(cli, &search, NULL);
     return status;
 }

@@ -61,7 +61,7 @@ int cmd_tradeoff(struct cli *cli) {
     if (cli_device_is_reference(cli))
         return cli_usage(cli, 1, "settings are measured against the reference: choose a device");
     if (cli->options.output && !str_ends_with_nocase(str_from(cli->options.output), ".html"))
-        return cli_usage(cli, cli->options.output_arg, "the report '%s' must end in .html",
+        return cli_usage(cli, cli_option_place(cli, "output"), "the report '%s' must end in .html",
                          cli->options.output);
     if (!(options.budget_s > 0))
         options.budget_s = TRADEOFF_BUDGET_S;

@@ -16,6 +16,19 @@
 #include <string.h>
 #include <unistd.h>
 
+// What a build leaves out: without devices, what measures them; of a module of WebAssembly, whose bytes a
+// browser fetches, what a page has no use for.
+#if GLINT_DEVICE
+#define MEASURES(run) (run)
+#else
+#define MEASURES(run) NULL
+#endif
+#ifdef __EMSCRIPTEN__
+#define INSTALLED(run) NULL
+#else
+#define INSTALLED(run) (run)
+#endif
+
 static const struct cli_command commands[] = {
     {"render", "SCENE...", "render a scene to a picture",
      "SCENE is a scene file (YAML or XML), a mesh (OBJ), or '-' for a scene on standard input. Without -o "
@@ -130,7 +143,7 @@ static const struct cli_command commands[] = {
      "folder. --format is text or json. The exit status is 1 if anything differs that should not.\n\n"
      "  glint verify picture.png\n"
      "  glint verify picture.png scenes/moved.glint.yaml\n",
-     1, 2, cmd_verify},
+     1, 2, INSTALLED(cmd_verify)},
     {"test", "FOLDER", "render the scenes of a folder again, and compare with their pictures",
      "A scene's picture is beside it, or in a folder 'pictures', and has its name: hall.png of\n"
      "hall.glint.yaml. glint-test.yaml in FOLDER says how pictures are rendered and how far they may be\n"
@@ -138,7 +151,7 @@ static const struct cli_command commands[] = {
      "missing or not within its bounds.\n\n"
      "  glint test scenes --bless             # writes the pictures that are missing, or wrong\n"
      "  glint test scenes --html report.html --junit report.xml\n",
-     1, 1, cmd_test},
+     1, 1, INSTALLED(cmd_test)},
     {"merge", "OUT PART...", "join parts of a picture",
      "PARTs are files that 'glint render -o NAME.part' wrote with --region, --tile, --samples-from and\n"
      "--samples-to, in any order. They must be of one scene, size and settings, and each pixel and sample\n"
@@ -147,7 +160,7 @@ static const struct cli_command commands[] = {
      "  glint render scene.glint.yaml --tile 1/2 -o 1.part\n"
      "  glint render scene.glint.yaml --tile 2/2 -o 2.part\n"
      "  glint merge picture.png 1.part 2.part\n",
-     2, -1, cmd_merge},
+     2, -1, INSTALLED(cmd_merge)},
     {"farm", "slurm|parallel|k8s SCENE, or status DIR",
      "write a script that renders frames and tiles on many machines",
      "The script starts tasks by Slurm, GNU parallel or Kubernetes, and explains itself. A task takes about "
@@ -163,7 +176,7 @@ static const struct cli_command commands[] = {
      "      --set 'models[0].rotation.y={3.6*frame}'\n"
      "  sh farm/job.sh\n"
      "  glint farm status farm\n",
-     2, 2, cmd_farm},
+     2, 2, INSTALLED(cmd_farm)},
     {"extremes", "SCENE", "push a scene to its extremes, and show what breaks",
      "Moves and scales the scene, moves the camera far away, changes refractive indices and specular\n"
      "exponents, adds slivers, coplanar rectangles and narrow gaps, and puts light and camera onto\n"
@@ -172,7 +185,7 @@ static const struct cli_command commands[] = {
      "image error. --format is text or json; -o writes a report with the matrix. The exit status is 1 if a\n"
      "bound is broken (docs/accuracy.md; --thresholds uses other bounds).\n\n"
      "  glint extremes scenes/showcase.glint.yaml -o report.html\n",
-     1, 1, cmd_extremes},
+     1, 1, MEASURES(cmd_extremes)},
     {"pick", "SCENE X,Y", "show what is seen at a pixel, and why",
      "Body, material, the lines of scene and mesh, distance and normal, then the path of the ray: each\n"
      "ray's weight, what it hits, which lights shine there, what it adds; as the device traces it and as\n"
@@ -188,7 +201,7 @@ static const struct cli_command commands[] = {
      "or csv; -o writes a report with a plot and pictures. The exit status is 1 if no settings fit.\n\n"
      "  glint tradeoff scene.glint.yaml -o report.html\n"
      "  glint tradeoff scene.glint.yaml --max-error flip=0.02 --max-time 40\n",
-     1, 1, cmd_tradeoff},
+     1, 1, MEASURES(cmd_tradeoff)},
     {"devices", "", "list the devices that can render", "", 0, 0, cli_list_devices},
     {"manual", "page|bash|zsh|fish [COMMAND]", "print a man page, or completions for a shell",
      "page: glint(1), or the page of COMMAND, which 'man -l -' shows. bash, zsh, fish: what the shell "
@@ -196,7 +209,7 @@ static const struct cli_command commands[] = {
      "after 'glint'. An installed glint has both in their places.\n\n"
      "  glint manual page render | man -l -\n"
      "  eval \"$(glint manual bash)\"\n",
-     1, 2, cmd_manual},
+     1, 2, INSTALLED(cmd_manual)},
     {0},
 };
 
@@ -279,13 +292,11 @@ static int unknown_command(struct cli *cli, int arg) {
     for (const struct cli_command *c = commands; c->name; c++)
         nearest_offer(&search, str_from(c->name));
     int status = cli_usage(cli, arg, "there is no command '%s'", cli->argv[arg]);
-    if (nearest_best(&search).len)
-        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
-    else if (arg == 1)
-        diag_help(&cli->sink, "'glint --help' lists the commands; to render a file: glint render %s",
-                  cli->argv[arg]);
-    else
-        diag_help(&cli->sink, "'glint --help' lists the commands");
+    cli_did_you_mean(cli, &search,
+                     arena_format(&cli->arena, "'glint --help' lists the commands%s%s",
+                                  arg == 1 ? "; to render a file: glint render " : "",
+                                  arg == 1 ? cli->argv[arg] : "")
+                         .ptr);
     return status;
 }
 
@@ -314,11 +325,15 @@ static int run_command(struct cli *cli, const struct cli_command *command) {
         if (cli->operands[i][0] == '\0')
             return cli_usage(cli, cli_operand_place(cli, i), "'glint %s' needs %s, but this is empty",
                              command->name, command->operands);
+    if (!cli_judge_options(cli))
+        return CLI_USAGE;
     int status = cli_take_stream(cli, command);
     cli->command = command;
     if (status == CLI_OK && !cli->options.changed) // that asks git first
         status = cli_enter_untrusted(cli, command, NULL);
-    return status == CLI_OK ? command->run(cli) : status;
+    if (status != CLI_OK || command->run)
+        return status == CLI_OK ? command->run(cli) : status;
+    return cli_left_out(cli, arena_format(&cli->arena, "'glint %s'", command->name).ptr);
 }
 
 static int run(struct cli *cli) {

@@ -53,7 +53,7 @@ int render_tell_stats(const struct render_job *job, str text) {
 // ---- a picture states its own error: --audit, --max-off and --stats
 
 bool render_wants_audit(const struct cli_options *options) {
-    const bool is_part = options->part.region_arg || options->part.tile_arg || options->part.samples_arg;
+    const bool is_part = options->part.region[2] || options->part.tiles || options->part.has_samples;
     return options->audit || options->has_max_off || (options->stats && !is_part);
 }
 

@@ -45,8 +45,7 @@ static void json_of(const struct exact *exact, const struct reference_statistics
     const struct reference_settings *settings = &exact->settings;
     const double unused_error = exact->session->unused_error;
     struct json_writer w;
-    json_writer_init(&w, out, JSON_WRITE_DEPTH_MAX);
-    json_open_report(&w, "glint render --device reference", 1);
+    json_report_begin(&w, out, JSON_WRITE_DEPTH_MAX, "glint render --device reference", 1);
     json_write_text(&w, "device", STR("reference"));
     json_write_text(&w, "camera", exact->view.camera.name);
     json_write_boolean(&w, "as_file", settings->as_file);
@@ -68,8 +67,7 @@ static void json_of(const struct exact *exact, const struct reference_statistics
     json_write_real(&w, "brightest", s->brightest);
     json_write_real(&w, "bound", s->bound);
     json_close_object(&w);
-    json_close_object(&w);
-    json_end(&w);
+    json_report_end(&w);
 }
 
 static int tell_statistics(struct render_job *job, const struct exact *exact,

@@ -1,6 +1,7 @@
 #include "load/settings/keys.h"
 
 #include "core/limits.h"
+#include "core/ranges.h"
 #include "measure/extremes/extremes.h"
 #include "picture/metrics/metrics.h"
 
@@ -101,17 +102,15 @@ const struct key_table BOUND_KEYS = {"metric", bounds, sizeof bounds / sizeof *b
      .doc = "The camera to look through, instead of the scene's first."},                                    \
         {.name = "size",                                                                                     \
          .value = KEY_SIZE,                                                                                  \
-         .form = "a width and a height from 1 to 16384",                                                     \
          .example = "size: 320x240",                                                                         \
          .least = 1,                                                                                         \
-         .greatest = 16384,                                                                                  \
+         .greatest = RANGE_SIDE_MOST,                                                                        \
          .doc = "Size of the picture in pixels, instead of the scene's."},                                   \
         {.name = "samples",                                                                                  \
          .value = KEY_WHOLE_NUMBER,                                                                          \
-         .form = "a whole number from 1 to 4096",                                                            \
          .example = "samples: 4",                                                                            \
          .least = 1,                                                                                         \
-         .greatest = 4096,                                                                                   \
+         .greatest = RANGE_SAMPLES_MOST,                                                                     \
          .doc = "Rays through each pixel, instead of the scene's."},                                         \
         {.name = "device",                                                                                   \
          .value = KEY_DEVICE,                                                                                \
@@ -165,38 +164,36 @@ static const struct key_row test_pictures[] = {
 const struct key_table TEST_PICTURE_KEYS = {"setting of a picture", test_pictures,
                                             sizeof test_pictures / sizeof *test_pictures};
 
-#define METRIC_ROW(text, index, from, to, range, words)                                                      \
-    {                                                                                                        \
-        .name = text, .value = KEY_METRIC, .form = range, .least = from, .greatest = to, .offset = index,    \
-        .doc = words                                                                                         \
-    }
 static const struct key_row test_bounds[] = {
-    METRIC_ROW("mae", METRIC_MAE, 0, HUGE_VAL, "a number of 0 or more", "At most: the mean difference."),
-    METRIC_ROW("rmse", METRIC_RMSE, 0, HUGE_VAL, "a number of 0 or more",
-               "At most: the root of the mean squared difference."),
-    METRIC_ROW("relmse", METRIC_RELMSE, 0, HUGE_VAL, "a number of 0 or more",
-               "At most: the relative mean squared difference."),
-    METRIC_ROW("largest", METRIC_LARGEST, 0, HUGE_VAL, "a number of 0 or more",
-               "At most: the largest difference of a channel."),
-    METRIC_ROW("psnr", METRIC_PSNR, 0, HUGE_VAL, "a number of 0 or more",
-               "At least: the signal to noise ratio in dB."),
-    METRIC_ROW("ssim", METRIC_SSIM, -1, 1, "a number from -1 to 1", "At least: the structural similarity."),
-    METRIC_ROW("flip", METRIC_FLIP, 0, 1, "a number from 0 to 1", "At most: the mean of FLIP."),
-    METRIC_ROW("share", METRIC_SHARE, 0, 1, "a number from 0 to 1",
-               "At most: the share of the pixels that are off by more than the threshold."),
+#define X(NAME, text, title, of_displayed, from, to, bound, option, argument, fails, holds)                  \
+    {.name = text, .value = KEY_METRIC, .least = from, .greatest = to, .offset = METRIC_##NAME, .doc = holds},
+#include "picture/metrics/metrics.def"
+#undef X
     {.name = "threshold",
      .value = KEY_THRESHOLD,
-     .form = "a number from 0 to 1",
      .greatest = 1,
      .doc = "From which difference of a channel a pixel is off, of displayed values from 0 to 1; 2/255 "
             "without it."},
     {.name = "not_finite",
      .value = KEY_PIXELS,
      .form = "a number of 0 or more",
-     .greatest = 1e9,
+     .greatest = RANGE_BROKEN_MOST,
      .doc = "How many pixels may be infinite or not a number in one of the two float pictures only."},
 };
 const struct key_table TEST_BOUND_KEYS = {"metric", test_bounds, sizeof test_bounds / sizeof *test_bounds};
+
+const char *key_form(const struct key_row *row, struct arena *arena) {
+    if (row->form)
+        return row->form;
+    if (row->greatest == HUGE_VAL)
+        return arena_format(arena, "a number of %g or more", row->least).ptr;
+    return arena_format(arena, "%s from %.15g to %.15g",
+                        row->value == KEY_SIZE           ? "a width and a height"
+                        : row->value == KEY_WHOLE_NUMBER ? "a whole number"
+                                                         : "a number",
+                        row->least, row->greatest)
+        .ptr;
+}
 
 const struct key_row *key_find(const struct key_table *table, str name, struct nearest *search) {
     *search = nearest_begin(name);

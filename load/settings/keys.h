@@ -47,7 +47,7 @@ struct key_row {
     const char *name;
     enum key_shape shape;
     enum key_value value;
-    const char *form; // for "'only' takes ..."
+    const char *form; // for "'only' takes ..."; NULL: key_form makes it of the range
     const char *example;
     double least, greatest; // of numbers
     uint32_t axes;          // KEY_AXIS_BOUNDS: bit 1 << axis
@@ -70,6 +70,9 @@ extern const struct key_table TEST_KEYS;         // of glint-test.yaml
 extern const struct key_table TEST_PICTURE_KEYS; // of one picture in it
 extern const struct key_table TEST_BOUND_KEYS;   // of its bounds
 
+// What a value of the row is, in words: "a whole number from 1 to 4096". In the arena, whose guard the caller
+// sets.
+const char *key_form(const struct key_row *row, struct arena *arena);
 // The row of a name; if it is NULL, `search` holds the nearest one.
 const struct key_row *key_find(const struct key_table *table, str name, struct nearest *search);
 // "a, b and c", in the arena, whose guard the caller sets.

@@ -22,7 +22,9 @@ static void report(const struct binder *b, tree_index node, const char *words, c
 }
 
 static void bad_value(const struct binder *b, tree_index node, const struct key_row *row) {
-    report(b, node, arena_format(b->input->arena, "'%s' must be %s", row->name, row->form).ptr, row->example);
+    report(b, node,
+           arena_format(b->input->arena, "'%s' must be %s", row->name, key_form(row, b->input->arena)).ptr,
+           row->example);
 }
 
 static const struct key_row *find_key(const struct binder *b, const struct key_table *table, tree_index key) {
@@ -66,24 +68,8 @@ static void take_list(struct binder *b, const struct key_row *row, tree_index va
     }
 }
 
-static bool read_whole(str text, const struct key_row *row, int32_t *out) {
-    int64_t number;
-    if (number_parse_integer(text, &number) != NUMBER_OK || number < (int64_t)row->least ||
-        number > (int64_t)row->greatest)
-        return false;
-    *out = (int32_t)number;
-    return true;
-}
-
-static void take_size(struct binder *b, const struct key_row *row, tree_index value,
-                      struct test_settings *out) {
-    const str text = tree_node(b->tree, value)->kind == TREE_SCALAR ? tree_text(b->tree, value) : STR("");
-    size_t x = 0;
-    while (x < text.len && text.ptr[x] != 'x')
-        x++;
-    if (x >= text.len || !read_whole(str_slice(text, 0, x), row, &out->width) ||
-        !read_whole(str_slice(text, x + 1, text.len), row, &out->height))
-        bad_value(b, value, row);
+static str text_of(const struct binder *b, tree_index value) {
+    return tree_node(b->tree, value)->kind == TREE_SCALAR ? tree_text(b->tree, value) : STR("");
 }
 
 static void take_bound(struct binder *b, tree_index key, struct test_settings *out) {
@@ -92,9 +78,7 @@ static void take_bound(struct binder *b, tree_index key, struct test_settings *o
     double number = 0;
     if (!row)
         return;
-    if (tree_node(b->tree, value)->kind != TREE_SCALAR ||
-        number_parse(tree_text(b->tree, value), &number) != NUMBER_OK || number < row->least ||
-        number > row->greatest) {
+    if (!number_parse_real(text_of(b, value), row->least, row->greatest, &number)) {
         bad_value(b, value, row);
         return;
     }
@@ -105,7 +89,7 @@ static void take_bound(struct binder *b, tree_index key, struct test_settings *o
         break;
     case KEY_PIXELS:
         out->has_not_finite = true;
-        out->bounds.not_finite = (uint64_t)number;
+        out->bounds.not_finite = number;
         break;
     default:
         out->bounds.has[row->offset] = true;
@@ -135,11 +119,12 @@ static bool take_setting(struct binder *b, const struct key_row *row, tree_index
         take_text(b, row, value, &out->device, &out->device_at);
         return true;
     case KEY_SIZE:
-        take_size(b, row, value, out);
+        if (!number_parse_size(text_of(b, value), "x", (int32_t)row->greatest, &out->width, &out->height))
+            bad_value(b, value, row);
         return true;
     case KEY_WHOLE_NUMBER:
-        if (tree_node(b->tree, value)->kind != TREE_SCALAR ||
-            !read_whole(tree_text(b->tree, value), row, &out->samples))
+        if (!number_parse_whole(text_of(b, value), (int64_t)row->least, (int64_t)row->greatest,
+                                &out->samples))
             bad_value(b, value, row);
         return true;
     case KEY_ASSIGNMENT:

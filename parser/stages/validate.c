@@ -4,6 +4,7 @@
 #include "parser/stages/loader.h"
 
 #include "core/number.h"
+#include "core/ranges.h"
 #include "grammar/ir.h"
 
 #include <math.h>
@@ -12,7 +13,6 @@
 // Below this sine two directions count as parallel (docs/language.md, "Camera").
 static const double PARALLEL_SINE = 1e-9;
 static const double COORDINATE_MAX = 1e18;
-static const int64_t PIXELS_MAX = 67108864;
 
 enum {
     SEEN_LIGHTS_MOST = 256,
@@ -346,14 +346,14 @@ static void check_image(const struct rules *rules, const struct ir_image *image)
     const struct schema_element *schema = &SCHEMA_IMAGE;
     int64_t pixels = (int64_t)image->width * image->height;
     // Others are rendered in bands.
-    if (pixels <= PIXELS_MAX || !(image->error > 0) || is_poisoned(schema, image, "width") ||
+    if (pixels <= RANGE_PIXELS_MOST || !(image->error > 0) || is_poisoned(schema, image, "width") ||
         is_poisoned(schema, image, "height"))
         return;
     const char *later = is_written(schema, image, "height") ? "height" : "width";
     const char *other = strcmp(later, "height") == 0 ? "width" : "height";
     diag_add(rules->sink, DIAG_TOO_MANY_PIXELS, value_place(rules, schema, image, later),
              "the image has %d x %d, that is %lld pixels; at most %lld are allowed where 'error' ends them",
-             image->width, image->height, (long long)pixels, (long long)PIXELS_MAX);
+             image->width, image->height, (long long)pixels, (long long)RANGE_PIXELS_MOST);
     if (is_written(schema, image, other))
         diag_note(rules->sink, value_place(rules, schema, image, other), "'%s' is here", other);
     diag_note(rules->sink, value_place(rules, schema, image, "error"), "'error' is here");

@@ -19,7 +19,8 @@ static bool has_bounds(const struct measure_bounds *bounds) {
 }
 
 static bool keeps_finite(const struct compare_report *report) {
-    return !has_bounds(report->bounds) || report->result->not_finite_together <= report->bounds->not_finite;
+    return !has_bounds(report->bounds) ||
+           (double)report->result->not_finite_together <= report->bounds->not_finite;
 }
 
 bool compare_keeps_bounds(const struct compare_report *report) {
@@ -121,8 +122,7 @@ static void json_largest(const struct measure_place *place, struct json_writer *
 void compare_json(const struct compare_report *report, struct strbuf *out) {
     const struct measure_result *r = report->result;
     struct json_writer json;
-    json_writer_init(&json, out, 2);
-    json_open_report(&json, "glint compare", 1);
+    json_report_begin(&json, out, 2, "glint compare", 1);
     json_picture(report, 0, "picture", &json);
     json_picture(report, 1, "reference", &json);
     json_write_integer(&json, "width", report->width);
@@ -138,6 +138,5 @@ void compare_json(const struct compare_report *report, struct strbuf *out) {
     json_write_integer(&json, "pixels_over", r->over);
     json_write_integer(&json, "not_finite_pixels", r->not_finite_together);
     json_write_boolean(&json, "bounds_kept", compare_keeps_bounds(report));
-    json_close_object(&json);
-    json_end(&json);
+    json_report_end(&json);
 }

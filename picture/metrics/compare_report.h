@@ -11,7 +11,7 @@
 struct measure_bounds {
     bool has[METRIC_COUNT];
     double bound[METRIC_COUNT];
-    uint64_t not_finite; // pixels that may be not a number; 0 if no bound was given
+    double not_finite; // pixels that may be not a number; 0 if no bound was given
 };
 
 struct compare_report {

@@ -8,15 +8,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum bound {
+    MOST,
+    LEAST, // higher is better
+};
+
 const struct metric_info metric_infos[METRIC_COUNT] = {
-    [METRIC_MAE] = {"mae", "mean absolute difference", false, false},
-    [METRIC_RMSE] = {"rmse", "root mean square", false, false},
-    [METRIC_RELMSE] = {"relmse", "relative mean square", false, false},
-    [METRIC_LARGEST] = {"largest", "largest difference", false, false},
-    [METRIC_PSNR] = {"psnr", "peak signal to noise, dB", true, false},
-    [METRIC_SSIM] = {"ssim", "structural similarity", true, true},
-    [METRIC_FLIP] = {"flip", "FLIP, mean", false, true},
-    [METRIC_SHARE] = {"share", "pixels over the threshold", false, false},
+#define X(NAME, name, title, of_displayed, least, most, bound, ...)                                          \
+    {name, title, bound == LEAST, of_displayed},
+#include "picture/metrics/metrics.def"
+#undef X
 };
 
 enum metric metric_find(str name) {

@@ -15,14 +15,9 @@
 #include "picture/write/image.h"
 
 enum metric {
-    METRIC_MAE,     // mean |a - b| over pixels and channels
-    METRIC_RMSE,    // root of the mean of (a - b)^2
-    METRIC_RELMSE,  // mean of (a - b)^2 / (b^2 + 0.01), b the reference (Rousselle et al. 2011)
-    METRIC_LARGEST, // largest |a - b| of a channel
-    METRIC_PSNR,    // 10 log10(1 / MSE) dB, peak 1; infinite if equal
-    METRIC_SSIM,    // Wang et al. 2004, of the luma; 1 if equal
-    METRIC_FLIP,    // LDR-FLIP's mean, Andersson et al. 2020; 0 if equal, 1 at most
-    METRIC_SHARE,   // of pixels with a channel further than the threshold from the reference's
+#define X(NAME, ...) METRIC_##NAME,
+#include "picture/metrics/metrics.def"
+#undef X
     METRIC_COUNT,
 };
 

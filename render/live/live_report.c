@@ -53,8 +53,7 @@ static void put_times(struct json_writer *w, const struct live_report *report) {
 void live_json(const struct live_report *report, struct strbuf *out) {
     const struct live_change *c = &report->live->change;
     struct json_writer w;
-    json_writer_init(&w, out, 0);
-    json_open_report(&w, report->is_view ? "glint view" : "glint render --watch", 1);
+    json_report_begin(&w, out, 0, report->is_view ? "glint view" : "glint render --watch", 1);
     json_write_integer(&w, "load", report->live->loads);
     json_write_boolean(&w, "broken", report->is_broken);
     if (!report->is_view)
@@ -72,6 +71,5 @@ void live_json(const struct live_report *report, struct strbuf *out) {
         json_write_integer(&w, "samples", report->frame->samples);
     }
     put_times(&w, report);
-    json_close_object(&w);
-    json_end(&w);
+    json_report_end(&w);
 }

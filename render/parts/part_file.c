@@ -1,6 +1,7 @@
 #include "render/parts/part_file.h"
 
 #include "core/heap.h"
+#include "core/ranges.h"
 #include "core/xxh64.h"
 #include "files/stream.h"
 
@@ -14,8 +15,6 @@ enum {
     READ_BYTES = 1 << 20,                  // at a time
     HEAD_BYTES = 1024 + PART_RECORD_BYTES, // a head is shorter
     SEAL_BYTES = 8,
-    SIDE_MOST = 16384,
-    SAMPLES_MOST = 4096,
 };
 
 // As the file has them: the words of the scene's image element.
@@ -133,11 +132,11 @@ static int word_of(const char *const *words, int count, const char *text) {
 
 static bool is_sound(const struct part *part) {
     const struct part_region *r = &part->region;
-    return part->width >= 1 && part->height >= 1 && part->width <= SIDE_MOST && part->height <= SIDE_MOST &&
-           r->width >= 1 && r->height >= 1 && r->x < part->width && r->y < part->height &&
-           r->width <= part->width - r->x && r->height <= part->height - r->y && part->samples >= 1 &&
-           part->samples <= SAMPLES_MOST && part->first_sample < part->end_sample &&
-           part->end_sample <= part->samples;
+    return part->width >= 1 && part->height >= 1 && part->width <= RANGE_SIDE_MOST &&
+           part->height <= RANGE_SIDE_MOST && r->width >= 1 && r->height >= 1 && r->x < part->width &&
+           r->y < part->height && r->width <= part->width - r->x && r->height <= part->height - r->y &&
+           part->samples >= 1 && part->samples <= RANGE_SAMPLES_MOST &&
+           part->first_sample < part->end_sample && part->end_sample <= part->samples;
 }
 
 char *part_take_line(char **text, const char *word) {

@@ -23,30 +23,15 @@ void record_find(str file, struct record_read *out) {
     out->is_there = out->fields[RECORD_SCENE].len && out->fields[RECORD_COMMAND].len;
 }
 
-static bool read_whole(str text, int32_t *out) {
-    int64_t value;
-    const bool good = number_parse_integer(text, &value) == NUMBER_OK && value > 0 && value <= INT32_MAX;
-    *out = good ? (int32_t)value : 0;
-    return good;
-}
-
 static bool read_unsigned(str text, unsigned *out) {
-    int32_t value;
-    const bool good = read_whole(text, &value);
+    int32_t value = 0;
+    const bool good = number_parse_whole(text, 1, INT32_MAX, &value);
     *out = (unsigned)value;
     return good;
 }
 
 static bool read_real(str text, double *out) {
     return number_parse(text, out) == NUMBER_OK && *out >= 0;
-}
-
-bool record_read_size(str text, int32_t *width, int32_t *height) {
-    size_t x = 0;
-    while (x < text.len && text.ptr[x] != 'x')
-        x++;
-    return x < text.len && read_whole(str_slice(text, 0, x), width) &&
-           read_whole(str_slice(text, x + 1, text.len), height);
 }
 
 static bool read_compression(str text, unsigned *out) {
@@ -73,9 +58,9 @@ static bool push(struct reading *r, struct list *list, str value) {
 static bool take_value(struct reading *r, str option, str value) {
     struct record_command *c = r->command;
     if (str_equal_cstr(option, "--size"))
-        return record_read_size(value, &c->width, &c->height);
+        return number_parse_size(value, "x", INT32_MAX, &c->width, &c->height);
     if (str_equal_cstr(option, "--samples"))
-        return read_whole(value, &c->samples);
+        return number_parse_whole(value, 1, INT32_MAX, &c->samples);
     if (str_equal_cstr(option, "--camera"))
         return (c->camera = value).len > 0;
     if (str_equal_cstr(option, "--set"))

@@ -70,7 +70,5 @@ void record_of_line(str line, struct record_read *out);
 // Whether two records are of one picture: the same scene, version, device and settings, coded alike. Where
 // the scene is and an audit's note do not count. false also where one is no record.
 bool record_same(const struct record_read *a, const struct record_read *b, struct arena *arena);
-// "640x480"
-bool record_read_size(str text, int32_t *width, int32_t *height);
 
 #endif

@@ -213,8 +213,7 @@ static void put_trace(struct json_writer *w, const struct stats *s) {
 
 void stats_json(const struct stats *s, struct strbuf *out) {
     struct json_writer w;
-    json_writer_init(&w, out, JSON_WRITE_DEPTH_MAX);
-    json_open_report(&w, "glint render", 1);
+    json_report_begin(&w, out, JSON_WRITE_DEPTH_MAX, "glint render", 1);
     json_write_text(&w, "device", str_from(s->device));
     json_write_text(&w, "camera", s->camera);
     json_write_integer(&w, "width", s->width);
@@ -238,6 +237,5 @@ void stats_json(const struct stats *s, struct strbuf *out) {
     if (s->has_audit)
         json_audit(&w, &s->audit);
     put_trace(&w, s);
-    json_close_object(&w);
-    json_end(&w);
+    json_report_end(&w);
 }

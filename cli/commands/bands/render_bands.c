@@ -3,6 +3,7 @@
 #include "cli/commands/bands/band_devices.h"
 #include "cli/device.h"
 #include "core/clock.h"
+#include "core/ranges.h"
 #include "core/timeline.h"
 #include "grammar/ir.h"
 #include "picture/write/rows.h"
@@ -22,15 +23,15 @@ enum {
 
 static bool are_asked_for(const struct render_job *job) {
     const struct cli_part *part = &job->cli->options.part;
-    return part->bands_arg || part->resume_arg || part->partial_arg || part->spreads;
+    return cli_option_place(job->cli, "bands") || part->resume || part->partial || part->spreads;
 }
 
 static int place_of(const struct render_job *job) {
-    const struct cli_part *part = &job->cli->options.part;
-    return part->resume_arg    ? part->resume_arg
-           : part->bands_arg   ? part->bands_arg
-           : part->partial_arg ? part->partial_arg
-                               : cli_operand_place(job->cli, 0);
+    static const char *const options[] = {"resume", "bands", "partial"};
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++)
+        if (cli_option_place(job->cli, options[i]))
+            return cli_option_place(job->cli, options[i]);
+    return cli_operand_place(job->cli, 0);
 }
 
 static bool is_file(const struct cli_output *output) {
@@ -64,7 +65,7 @@ static const char *obstacle(const struct render_job *job) {
         return "'--watch' renders whole pictures: leave it out";
     if (o->repeat)
         return "'--repeat' times whole pictures: leave it out";
-    if (o->part.samples_arg)
+    if (o->part.has_samples)
         return "some of the samples are rendered at once: take a smaller --region or --tile instead";
     if (!first_file(job))
         return "the checkpoint lies beside the picture's file: name one with -o";
@@ -107,7 +108,7 @@ static int judge_formats(struct render_job *job) {
 
 int render_plan_bands(struct render_job *job) {
     const struct part_region *region = &job->part.region;
-    const bool is_large = (uint64_t)region->width * region->height > SESSION_PIXELS_MOST;
+    const bool is_large = (uint64_t)region->width * region->height > RANGE_PIXELS_MOST;
     job->in_bands = is_large || are_asked_for(job) || saves_memory(job);
     if (!job->in_bands)
         return CLI_OK;
@@ -151,13 +152,13 @@ struct shot_region render_first_region(struct render_job *job) {
 
 static bool goes_on(void *context) {
     const struct bands_run *run = context;
-    return run->job->cli->options.part.resume_arg && interrupt_signal() == 0;
+    return run->job->cli->options.part.resume && interrupt_signal() == 0;
 }
 
 static int refuse(struct bands_run *run, const char *words) {
     struct cli *cli = run->job->cli;
     const int status = cli_usage(cli, place_of(run->job), "'%s' %s", run->path, words);
-    diag_help(&cli->sink, cli->options.part.resume_arg
+    diag_help(&cli->sink, cli->options.part.resume
                               ? "remove it to begin anew"
                               : "go on from it with --resume, or remove it to begin anew");
     return status;
@@ -183,7 +184,7 @@ static int go_on(struct bands_run *run, struct strbuf *error) {
         return begin_anew(run, error);
     if (!run->is_open)
         return refuse(run, error->len ? error->data : "needs more memory than there is");
-    if (!job->cli->options.part.resume_arg)
+    if (!job->cli->options.part.resume)
         return refuse(run, "is there: a run before this one has left it");
     const char *words = bands_difference(&run->bands, &job->part);
     if (words)
@@ -298,7 +299,7 @@ static int stop(struct bands_run *run) {
     }
     if (!spool_settle(&run->bands.spool))
         return cannot_write(run);
-    if (job->cli->options.part.partial_arg && bands->done_count) {
+    if (job->cli->options.part.partial && bands->done_count) {
         const int status = bands_write_partial(run);
         if (status != CLI_OK)
             return status;

@@ -79,7 +79,7 @@ static int begin_sheet(struct batch_run *run, const struct batch_made *made) {
     run->sheet_display = made->display;
     if (width > 65535 || height > 65535 || (most && (width > most || height > most)))
         return cli_usage(
-            run->cli, run->cli->options.batch.montage_arg,
+            run->cli, cli_option_place(run->cli, "montage"),
             "the sheet would have %llu x %llu pixels, which is too large: choose a smaller --size",
             (unsigned long long)width, (unsigned long long)height);
     return image_init(&run->sheet, (uint32_t)width, (uint32_t)height) ? CLI_OK : no_memory(run, "the sheet");

@@ -36,7 +36,7 @@ int batch_judge_file(struct cli *cli, const char *scene) {
 }
 
 int batch_no_animation(struct cli *cli, const char *scene) {
-    cli_usage(cli, cli->options.batch.frames_arg, "'%s' has no animation, and 'all' are its frames", scene);
+    cli_usage(cli, cli_option_place(cli, "frames"), "'%s' has no animation, and 'all' are its frames", scene);
     diag_help(&cli->sink, "say which frames: --frames 0..99");
     return CLI_USAGE;
 }

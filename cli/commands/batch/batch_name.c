@@ -77,7 +77,7 @@ static const char *pattern_of(const struct batch *batch, const struct cli_output
         pattern = with(batch->cli, pattern, ".%v");
     if (!output->arg && b->has_frames)
         pattern = with(batch->cli, pattern, ".%04d");
-    if (!output->arg && tile->tile_arg)
+    if (!output->arg && tile->tiles)
         pattern = with(batch->cli, pattern,
                        arena_format(&batch->cli->arena, ".%u-of-%u", tile->tile, tile->tiles).ptr);
     if (str_equal(batch->cli->options.camera, STR("all")) && !has_word(pattern, 'c'))

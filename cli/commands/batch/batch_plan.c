@@ -74,7 +74,7 @@ static int take_scenes(struct cli *cli, struct scenes *scenes) {
     const int status = cli->options.batch.list ? take_list(cli, scenes) : CLI_OK;
     if (status != CLI_OK || scenes->count)
         return status;
-    return cli_usage(cli, cli->options.batch.list_arg, "'%s' names no scene", cli->options.batch.list);
+    return cli_usage(cli, cli_option_place(cli, "list"), "'%s' names no scene", cli->options.batch.list);
 }
 
 // ---- settings of a frame
@@ -189,7 +189,7 @@ static int refuse_count(struct batch *batch, const struct scenes *scenes) {
     if (grid_size(b) * frames <= JOBS_MAX)
         return CLI_OK;
     return cli_usage(batch->cli,
-                     b->frames_arg     ? b->frames_arg
+                     b->has_frames     ? cli_option_place(batch->cli, "frames")
                      : b->sweeps.count ? b->sweeps.items[0].arg
                                        : 1,
                      "these are more than %d pictures", JOBS_MAX);
@@ -198,7 +198,7 @@ static int refuse_count(struct batch *batch, const struct scenes *scenes) {
 // Frames of a scene that nothing moves would be one picture many times.
 static int refuse_still(struct batch *batch) {
     struct cli *cli = batch->cli;
-    const int status = cli_usage(cli, cli->options.batch.frames_arg,
+    const int status = cli_usage(cli, cli_option_place(cli, "frames"),
                                  "all frames would be the same picture: nothing depends on the frame");
     diag_help(
         &cli->sink,
@@ -267,8 +267,8 @@ static int take_motion(struct batch *batch, struct scene_of *scene, bool is_only
     scene->last = !b->all_frames ? b->last_frame : motion.is_animated ? motion.frames - 1 : 0;
     if (!motion.is_animated || scene->last < motion.frames)
         return CLI_OK;
-    cli_usage(cli, b->frames_arg, "the animation of '%s' has %d frame%s, 0 to %d", scene->path,
-              (int)motion.frames, motion.frames == 1 ? "" : "s", (int)motion.frames - 1);
+    cli_usage(cli, cli_option_place(cli, "frames"), "the animation of '%s' has %d frame%s, 0 to %d",
+              scene->path, (int)motion.frames, motion.frames == 1 ? "" : "s", (int)motion.frames - 1);
     diag_help(&cli->sink, "--frames all renders them all; --set animation.frames=N makes more of them");
     return CLI_USAGE;
 }

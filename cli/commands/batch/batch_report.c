@@ -87,8 +87,7 @@ static void put_text(const struct batch_run *run, struct strbuf *out) {
 static void put_json(const struct batch_run *run, struct strbuf *out) {
     const struct batch_counts *c = &run->counts;
     struct json_writer w;
-    json_writer_init(&w, out, 0);
-    json_open_report(&w, "glint render of many", 1);
+    json_report_begin(&w, out, 0, "glint render of many", 1);
     json_write_integer(&w, "pictures", run->batch.jobs.count);
     json_write_integer(&w, "written", c->written);
     json_write_integer(&w, "failed", c->failed);
@@ -105,8 +104,7 @@ static void put_json(const struct batch_run *run, struct strbuf *out) {
     json_write_real(&w, "device_s", c->device_seconds);
     json_write_real(&w, "total_s", clock_seconds() - run->cli->begun);
     json_close_object(&w);
-    json_close_object(&w);
-    json_end(&w);
+    json_report_end(&w);
 }
 
 int batch_stats(const struct batch_run *run) {

@@ -81,7 +81,8 @@ static void put_head(const struct batch_run *run, struct strbuf *out) {
 
 static int refuse(struct batch_run *run, const char *words) {
     struct cli *cli = run->cli;
-    const int status = cli_usage(cli, cli->options.part.resume_arg, "'%s' %s", run->checkpoint.path, words);
+    const int status =
+        cli_usage(cli, cli_option_place(cli, "resume"), "'%s' %s", run->checkpoint.path, words);
     diag_help(&cli->sink, "remove it to begin anew");
     return status;
 }
@@ -189,7 +190,7 @@ static int go_on(struct batch_run *run, const struct strbuf *head) {
 int batch_resume(struct batch_run *run) {
     struct cli *cli = run->cli;
     struct strbuf head;
-    if (!cli->options.part.resume_arg)
+    if (!cli->options.part.resume)
         return CLI_OK;
     run->checkpoint.all = run->batch.jobs.count;
     run->checkpoint.path =

@@ -22,6 +22,6 @@ bool batch_is_wanted(const struct cli *cli) {
         film |= strcmp(cli->options.outputs.items[i].path, "-") != 0 &&
                 batch_film_of(cli->options.outputs.items[i].path) != BATCH_NO_FILM;
     // Cameras that are rendered one by one would not be known when another process goes on.
-    film |= cli->options.part.resume_arg && str_equal(cli->options.camera, STR("all"));
+    film |= cli->options.part.resume && str_equal(cli->options.camera, STR("all"));
     return b->has_frames || b->sweeps.count || b->list || b->montage || cli->operand_count > 1 || film;
 }

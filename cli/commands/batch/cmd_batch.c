@@ -14,29 +14,33 @@
 
 // ---- what does not go together with it
 
-static bool has_no_place(struct cli *cli) {
-    static const struct {
-        const char *option, *why;
-    } rows[] = {
-        {"repeat", "each of many pictures is rendered once"},
-        {"bands", "many pictures are rendered whole, one after the other"},
-        {"partial", "many pictures are whole ones"},
-        {"watch", "many pictures are rendered once; 'glint render --watch' follows one scene"},
-        {"time", "many pictures are whole ones"},
-        {"max-error", "settings are chosen for one picture"},
-        {"max-time", "settings are chosen for one picture"},
-        {"audit", "an audit is of one picture"},
-        {"max-off", "an audit is of one picture"},
-        {"aov", "many pictures are written without what else is known of their pixels"},
-        {"samples-from", "many pictures have all their samples; --tile and --region go with them"},
-        {"samples-to", "many pictures have all their samples; --tile and --region go with them"},
-        {"noise", "the error of a picture is stated for one; set image.error in the scene"},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (cli_has_no_effect(cli, rows[i].option, rows[i].why))
-            return true;
-    return false;
-}
+static const struct cli_no_effect no_place[] = {
+    {"repeat", "each of many pictures is rendered once"},
+    {"bands", "many pictures are rendered whole, one after the other"},
+    {"partial", "many pictures are whole ones"},
+    {"watch", "many pictures are rendered once; 'glint render --watch' follows one scene"},
+    {"time", "many pictures are whole ones"},
+    {"max-error", "settings are chosen for one picture"},
+    {"max-time", NULL},
+    {"audit", "an audit is of one picture"},
+    {"max-off", NULL},
+    {"aov", "many pictures are written without what else is known of their pixels"},
+    {"samples-from", "many pictures have all their samples; --tile and --region go with them"},
+    {"samples-to", NULL},
+    {"noise", "the error of a picture is stated for one; set image.error in the scene"},
+    {0},
+};
+static const struct cli_no_effect no_place_in_film[] = {
+    {"tile", "a film has whole frames"},
+    {"region", NULL},
+    {"skip-done", "a film does not say how each of its frames was made"},
+    {0},
+};
+static const struct cli_no_effect no_place_in_sheet[] = {
+    {"tile", "a sheet has whole pictures"},
+    {"region", NULL},
+    {0},
+};
 
 static int judge(struct batch_run *run) {
     struct cli *cli = run->cli;
@@ -61,22 +65,18 @@ static int judge(struct batch_run *run) {
         return cli_usage(cli, outputs->items[1].arg,
                          "a film is the only output of a run: leave this one out");
     if (b->montage && batch_film_of(outputs->count ? outputs->items[0].path : "") == BATCH_FFMPEG)
-        return cli_usage(cli, b->montage_arg, "a sheet is one picture, and the output is a film");
+        return cli_usage(cli, cli_option_place(cli, "montage"),
+                         "a sheet is one picture, and the output is a film");
     if ((run->batch.film && cli_has_no_effect(cli, "resume", "a film is whole or not there")) ||
         (b->montage && cli_has_no_effect(cli, "resume", "a sheet is whole or not there")))
         return CLI_USAGE;
     if (b->fps > 0 && !b->has_frames && !run->batch.film &&
         cli_has_no_effect(cli, "fps", "there are no frames"))
         return CLI_USAGE;
-    if (run->batch.film &&
-        (cli_has_no_effect(cli, "tile", "a film has whole frames") ||
-         cli_has_no_effect(cli, "region", "a film has whole frames") ||
-         cli_has_no_effect(cli, "skip-done", "a film does not say how each of its frames was made")))
-        return CLI_USAGE;
-    if (b->montage && (cli_has_no_effect(cli, "tile", "a sheet has whole pictures") ||
-                       cli_has_no_effect(cli, "region", "a sheet has whole pictures")))
-        return CLI_USAGE;
-    return has_no_place(cli) ? CLI_USAGE : CLI_OK;
+    const bool is_idle = (run->batch.film && cli_have_no_effect(cli, no_place_in_film)) ||
+                         (b->montage && cli_have_no_effect(cli, no_place_in_sheet)) ||
+                         cli_have_no_effect(cli, no_place);
+    return is_idle ? CLI_USAGE : CLI_OK;
 }
 
 static int take_outputs(struct batch_run *run) {
@@ -381,7 +381,7 @@ static int run_batch(struct batch_run *run) {
             strbuf_init(&run->made[i].files[k]);
     }
     progress_begin(&run->progress, cli->options.quiet);
-    run->progress.patience = cli->options.part.resume_arg ? PROGRESS_PATIENCE : 0;
+    run->progress.patience = cli->options.part.resume ? PROGRESS_PATIENCE : 0;
     if (status == CLI_OK)
         status = finish(run, render_all(run));
     for (int i = 0; i < 2; i++) {

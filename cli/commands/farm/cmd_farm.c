@@ -18,12 +18,9 @@ static int engine_of(struct cli *cli) {
 
 // 'status' takes no option of a plan: what a farm renders is decided.
 static int status_of(struct cli *cli) {
-    static const char *const options[] = {"output",      "frames",   "fps",       "tiles", "chunk", "gpus",
-                                          "folder",      "pack",     "force",     "image", "size",  "samples",
-                                          "camera",      "set",      "device",    "depth", "quiet", "quality",
-                                          "compression", "sshlogin", "asset-path"};
-    for (size_t i = 0; i < sizeof options / sizeof *options; i++)
-        if (cli_has_no_effect(cli, options[i], "status only reads what the farm left"))
+    for (const struct option_row *row = NULL; (row = cli_next_option(cli->command, row)) != NULL;)
+        if (row->commands[0] != '*' && strcmp(row->name, "format") != 0 &&
+            cli_has_no_effect(cli, row->name, "status only reads what the farm left"))
             return CLI_USAGE;
     return farm_status(cli, cli->operands[1]);
 }

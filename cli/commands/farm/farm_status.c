@@ -205,9 +205,8 @@ static void put_tasks(const struct farm_state *s, enum task_state state, const c
 static void put_json(const struct farm_state *s, struct strbuf *out) {
     struct json_writer w;
     struct strbuf rest;
-    json_writer_init(&w, out, 2);
     strbuf_init(&rest);
-    json_open_report(&w, "glint farm status", 1);
+    json_report_begin(&w, out, 2, "glint farm status", 1);
     json_write_text(&w, "engine", str_from(farm_engines[s->plan.engine]));
     json_write_integer(&w, "pictures", s->plan.frames);
     json_write_integer(&w, "written", s->pictures_there);
@@ -221,8 +220,7 @@ static void put_json(const struct farm_state *s, struct strbuf *out) {
         write_rest(s, &rest);
         json_write_text(&w, "rest", strbuf_view(&rest));
     }
-    json_close_object(&w);
-    json_end(&w);
+    json_report_end(&w);
     strbuf_finish(&rest);
 }
 

@@ -34,7 +34,7 @@ static bool is_mistaken(struct cli *cli) {
     const char *out = cli->options.output;
     if (!out || strcmp(out, "-") == 0 || convert_spelling_of(str_from(out), &spelling))
         return false;
-    cli_usage(cli, cli->options.output_arg, "the output '%s' must end in %s", out,
+    cli_usage(cli, cli_option_place(cli, "output"), "the output '%s' must end in %s", out,
               schema_file_words(SCHEMA_FILE_SCENE, &cli->arena).ptr);
     diag_help(&cli->sink, "the ending says in which spelling the scene is written");
     return true;

@@ -178,8 +178,7 @@ static void put_buffers(struct json_writer *w, const struct flat_scene *flat) {
 void inspect_scene_json(const struct inspected_scene *scene, struct strbuf *out) {
     const struct session *session = scene->session;
     struct json_writer w;
-    json_writer_init(&w, out, FLAT_DEPTH);
-    json_open_report(&w, "glint inspect scene", 1);
+    json_report_begin(&w, out, FLAT_DEPTH, "glint inspect scene", 1);
     json_open_list(&w, "files");
     for (uint32_t i = 0; i < session->origin.files.count; i++)
         json_write_text(&w, NULL, session->sources.items[session->origin.files.items[i].source].path);
@@ -192,6 +191,5 @@ void inspect_scene_json(const struct inspected_scene *scene, struct strbuf *out)
     put_features(&w, scene);
     put_meshes(&w, &scene->flat);
     put_buffers(&w, &scene->flat);
-    json_close_object(&w);
-    json_end(&w);
+    json_report_end(&w);
 }

@@ -113,8 +113,7 @@ static void json_of(const struct inspected *p, struct strbuf *out) {
         [RECORD_SETTINGS] = "settings", [RECORD_SCALED] = "scaled",    [RECORD_COMMAND] = "command",
     };
     struct json_writer json;
-    json_writer_init(&json, out, JSON_WRITE_DEPTH_MAX);
-    json_open_report(&json, "glint inspect", 1);
+    json_report_begin(&json, out, JSON_WRITE_DEPTH_MAX, "glint inspect", 1);
     json_write_text(&json, "picture", str_from(p->path));
     json_write_text(&json, "kind", str_from(p->kind));
     if (p->width) {
@@ -126,8 +125,7 @@ static void json_of(const struct inspected *p, struct strbuf *out) {
     for (int i = 0; i < RECORD_FIELDS; i++)
         field(&json, keys[i], p->record.fields[i]);
     field(&json, "accuracy", p->record.note);
-    json_close_object(&json);
-    json_end(&json);
+    json_report_end(&json);
 }
 
 int inspect_picture(struct cli *cli) {

@@ -132,8 +132,8 @@ int cmd_view(struct cli *cli) {
     if (status != CLI_OK)
         return status;
     if (!image_format_of_path(str_from(v.output), IMAGE_WRITTEN, &v.format))
-        return cli_usage(cli, cli->options.output_arg, "the output '%s' must end in " IMAGE_WRITTEN_ENDINGS,
-                         v.output);
+        return cli_usage(cli, cli_option_place(cli, "output"),
+                         "the output '%s' must end in " IMAGE_WRITTEN_ENDINGS, v.output);
     status = cli_try_scene(cli, cli->operands[0]);
     if (status != CLI_OK)
         return status;

@@ -35,23 +35,16 @@ struct watching {
 
 // ---- what does not go together with it
 
-static bool has_no_place(struct cli *cli) {
-    static const struct {
-        const char *option, *why;
-    } rows[] = {
-        {"repeat", "--watch renders after each change"},
-        {"time", "--watch makes whole pictures"},
-        {"max-error", "--watch follows the scene, and does not choose settings"},
-        {"max-time", "--watch follows the scene, and does not choose settings"},
-        {"audit", "--watch makes no audits; 'glint render' without it does"},
-        {"max-off", "--watch makes no audits; 'glint render' without it does"},
-        {"aov", "--watch writes only the picture"},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (cli_has_no_effect(cli, rows[i].option, rows[i].why))
-            return true;
-    return false;
-}
+static const struct cli_no_effect no_place[] = {
+    {"repeat", "--watch renders after each change"},
+    {"time", "--watch makes whole pictures"},
+    {"max-error", "--watch follows the scene, and does not choose settings"},
+    {"max-time", NULL},
+    {"audit", "--watch makes no audits; 'glint render' without it does"},
+    {"max-off", NULL},
+    {"aov", "--watch writes only the picture"},
+    {0},
+};
 
 static int refuse(struct cli *cli, const char *output) {
     const int place = cli_option_place(cli, "watch");
@@ -67,7 +60,7 @@ static int refuse(struct cli *cli, const char *output) {
                          "--watch writes one picture: leave this one out");
     if (cli_device_is_reference(cli))
         return cli_usage(cli, place, "--watch works on a device, not by the reference");
-    return has_no_place(cli) ? CLI_USAGE : CLI_OK;
+    return cli_have_no_effect(cli, no_place) ? CLI_USAGE : CLI_OK;
 }
 
 // ---- one picture

@@ -6,39 +6,10 @@
 
 #include <string.h>
 
-static void take_options(struct cli *cli, const struct cli_command *command, struct manual_command *into) {
-    struct cli_option_text option;
-    uint32_t count = 0;
-    for (int at = 0; (at = cli_next_option(command, at, &option)) != 0;)
-        count++;
-    into->options = ARENA_ARRAY(&cli->arena, struct cli_option_text, count);
-    for (int at = 0; (at = cli_next_option(command, at, &option)) != 0;)
-        into->options[into->option_count++] = option;
-}
-
-static struct manual_command of_command(struct cli *cli, const struct cli_command *c) {
-    struct manual_command made = {c->name, c->operands, c->summary, c->details, NULL, 0};
-    take_options(cli, c, &made);
-    return made;
-}
-
-static struct manual make(struct cli *cli) {
-    struct manual manual = {
-        .version = GLINT_VERSION, .date = about_date, .purpose = cli_purpose, .exits = cli_exits};
-    uint32_t count = 0;
-    while (cli->commands[count].name)
-        count++;
-    take_options(cli, NULL, &manual.program);
-    manual.commands = ARENA_ARRAY(&cli->arena, struct manual_command, count);
-    for (uint32_t i = 0; i < count; i++)
-        manual.commands[manual.command_count++] = of_command(cli, &cli->commands[i]);
-    return manual;
-}
-
-static const struct manual_command *find(const struct manual *manual, const char *name) {
-    for (uint32_t i = 0; i < manual->command_count; i++)
-        if (strcmp(manual->commands[i].name, name) == 0)
-            return &manual->commands[i];
+static const struct cli_command *find(const struct cli_command *commands, const char *name) {
+    for (const struct cli_command *c = commands; c->name; c++)
+        if (strcmp(c->name, name) == 0)
+            return c;
     return NULL;
 }
 
@@ -52,8 +23,7 @@ static int kind_of(struct cli *cli, const char *const *kinds) {
     }
     cli_usage(cli, cli_operand_place(cli, 0), "there is no manual '%s'; write page, bash, zsh or fish",
               cli->operands[0]);
-    if (nearest_best(&search).len)
-        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
+    cli_did_you_mean(cli, &search, NULL);
     return -1;
 }
 
@@ -65,8 +35,12 @@ int cmd_manual(struct cli *cli) {
         return CLI_USAGE;
     if (name && kind > 0)
         return cli_usage(cli, cli_operand_place(cli, 1), "completions are those of all commands");
-    const struct manual manual = make(cli);
-    const struct manual_command *command = name ? find(&manual, name) : NULL;
+    const struct manual manual = {.version = GLINT_VERSION,
+                                  .date = about_date,
+                                  .purpose = cli_purpose,
+                                  .exits = cli_exits,
+                                  .commands = cli->commands};
+    const struct cli_command *command = name ? find(cli->commands, name) : NULL;
     if (name && !command)
         return cli_usage(cli, cli_operand_place(cli, 1), "there is no command '%s'", name);
     struct strbuf text;

@@ -9,27 +9,16 @@
 
 #include <stdint.h>
 
-struct manual_command {
-    const char *name; // NULL: the program itself
-    const char *operands;
-    const char *summary;
-    const char *details; // paragraphs; lines that begin with spaces are examples
-    struct cli_option_text *options;
-    uint32_t option_count;
-};
-
 struct manual {
     const char *version;
     const char *date; // of the page, YYYY-MM-DD; empty: none
     const char *purpose;
-    const char *exits; // "Exit status: 0 no error; 1 ...", lines broken anywhere
-    struct manual_command program;
-    struct manual_command *commands;
-    uint32_t command_count;
+    const char *exits;                  // "Exit status: 0 no error; 1 ...", lines broken anywhere
+    const struct cli_command *commands; // a row without a name at the end
 };
 
 // glint(1), where `command` is NULL; else glint-COMMAND(1). In man(7).
-void manual_page(const struct manual *manual, const struct manual_command *command, struct strbuf *out);
+void manual_page(const struct manual *manual, const struct cli_command *command, struct strbuf *out);
 // Completion scripts.
 void manual_bash(const struct manual *manual, struct strbuf *out);
 void manual_zsh(const struct manual *manual, struct strbuf *out);

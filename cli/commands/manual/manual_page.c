@@ -86,7 +86,7 @@ static void add_details(struct strbuf *out, const char *text) {
     }
 }
 
-static void add_option(struct strbuf *out, const struct cli_option_text *option) {
+static void add_option(struct strbuf *out, const struct option_row *option) {
     strbuf_cstr(out, ".TP\n");
     if (option->letter)
         strbuf_format(out, "\\fB\\-%c\\fR, ", option->letter);
@@ -94,7 +94,7 @@ static void add_option(struct strbuf *out, const struct cli_option_text *option)
     add_letters(out, str_from(option->name), false);
     strbuf_cstr(out, "\\fR");
     if (option->argument) {
-        strbuf_cstr(out, option->argument[0] == '[' ? "\\fI" : " \\fI");
+        strbuf_cstr(out, cli_option_is_optional(option) ? "\\fI" : " \\fI");
         add_letters(out, str_from(option->argument), false);
         strbuf_cstr(out, "\\fR");
     }
@@ -102,10 +102,10 @@ static void add_option(struct strbuf *out, const struct cli_option_text *option)
     add_words(out, str_from(option->doc));
 }
 
-static void add_options(struct strbuf *out, const struct manual_command *command) {
+static void add_options(struct strbuf *out, const struct cli_command *command) {
     strbuf_cstr(out, ".SH OPTIONS\n");
-    for (uint32_t i = 0; i < command->option_count; i++)
-        add_option(out, &command->options[i]);
+    for (const struct option_row *row = NULL; (row = cli_next_option(command, row)) != NULL;)
+        add_option(out, row);
 }
 
 static void add_synopsis(struct strbuf *out, const char *name, const char *rest) {
@@ -144,21 +144,19 @@ static void add_program(const struct manual *manual, struct strbuf *out) {
     strbuf_cstr(out, ".SH SYNOPSIS\n.B glint\n.I COMMAND\n[OPTION]...\n.SH DESCRIPTION\n");
     add_words(out, str_from(manual->purpose));
     strbuf_cstr(out, ".SH COMMANDS\n");
-    for (uint32_t i = 0; i < manual->command_count; i++) {
-        strbuf_format(out, ".TP\n.BR glint\\-%s (1)\n", manual->commands[i].name);
-        add_words(out, str_from(manual->commands[i].summary));
+    for (const struct cli_command *c = manual->commands; c->name; c++) {
+        strbuf_format(out, ".TP\n.BR glint\\-%s (1)\n", c->name);
+        add_words(out, str_from(c->summary));
     }
-    add_options(out, &manual->program);
+    add_options(out, NULL);
     add_exits(out, manual->exits);
     strbuf_cstr(out, ".SH FILES\n.TP\n.I .glintrc.yaml\nsettings of the scenes below its folder\n");
     strbuf_cstr(out, ".SH SEE ALSO\n");
-    for (uint32_t i = 0; i < manual->command_count; i++)
-        strbuf_format(out, ".BR glint\\-%s (1)%s\n", manual->commands[i].name,
-                      i + 1 < manual->command_count ? "," : "");
+    for (const struct cli_command *c = manual->commands; c->name; c++)
+        strbuf_format(out, ".BR glint\\-%s (1)%s\n", c->name, c[1].name ? "," : "");
 }
 
-static void add_command(const struct manual *manual, const struct manual_command *command,
-                        struct strbuf *out) {
+static void add_command(const struct manual *manual, const struct cli_command *command, struct strbuf *out) {
     strbuf_format(out, "glint\\-%s \\-\n", command->name);
     add_words(out, str_from(command->summary));
     add_synopsis(out, command->name, command->operands);
@@ -172,7 +170,7 @@ static void add_command(const struct manual *manual, const struct manual_command
     strbuf_cstr(out, ".SH SEE ALSO\n.BR glint (1)\n");
 }
 
-void manual_page(const struct manual *manual, const struct manual_command *command, struct strbuf *out) {
+void manual_page(const struct manual *manual, const struct cli_command *command, struct strbuf *out) {
     strbuf_cstr(out, ".\\\" Made by 'glint manual page' from the table of options.\n.TH GLINT");
     for (const char *p = command ? command->name : ""; *p; p++)
         strbuf_format(out, "%s%c", p == command->name ? "\\-" : "", toupper((unsigned char)*p));

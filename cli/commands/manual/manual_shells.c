@@ -39,31 +39,25 @@ static bool has_words(const char *text) {
 }
 
 static void add_names(struct strbuf *out, const struct manual *manual) {
-    for (uint32_t i = 0; i < manual->command_count; i++)
-        strbuf_format(out, " %s", manual->commands[i].name);
-}
-
-static bool is_optional(const struct cli_option_text *option) {
-    return option->argument && option->argument[0] == '[';
+    for (const struct cli_command *c = manual->commands; c->name; c++)
+        strbuf_format(out, " %s", c->name);
 }
 
 // ---- bash
 
-static void add_bash_options(struct strbuf *out, const struct manual_command *command) {
-    for (uint32_t i = 0; i < command->option_count; i++) {
-        const struct cli_option_text *o = &command->options[i];
+static void add_bash_options(struct strbuf *out, const struct cli_command *command) {
+    for (const struct option_row *o = NULL; (o = cli_next_option(command, o)) != NULL;) {
         strbuf_format(out, " --%s", o->name);
-        if (is_optional(o)) // "[=all]": both ways are complete
+        if (cli_option_is_optional(o)) // "[=all]": both ways are complete
             strbuf_format(out, " --%s%.*s", o->name, (int)strcspn(o->argument + 1, "]"), o->argument + 1);
         if (o->letter)
             strbuf_format(out, " -%c", o->letter);
     }
 }
 
-static void add_bash_values(struct strbuf *out, const struct manual_command *command) {
-    for (uint32_t i = 0; i < command->option_count; i++) {
-        const struct cli_option_text *o = &command->options[i];
-        if (!o->argument || is_optional(o))
+static void add_bash_values(struct strbuf *out, const struct cli_command *command) {
+    for (const struct option_row *o = NULL; (o = cli_next_option(command, o)) != NULL;) {
+        if (!o->argument || cli_option_is_optional(o))
             continue;
         strbuf_format(out, "    %s:--%s", command->name, o->name);
         if (o->letter)
@@ -88,20 +82,19 @@ void manual_bash(const struct manual *manual, struct strbuf *out) {
              "then\n"
              "        words='help");
     add_names(out, manual);
-    add_bash_options(out, &manual->program);
+    add_bash_options(out, NULL);
     strbuf_cstr(out, "'\n"
                      "        COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))\n"
                      "        return\n"
                      "    fi\n"
                      "    previous=${COMP_WORDS[COMP_CWORD - 1]}\n"
                      "    case $command:$previous in\n");
-    for (uint32_t i = 0; i < manual->command_count; i++)
-        add_bash_values(out, &manual->commands[i]);
+    for (const struct cli_command *c = manual->commands; c->name; c++)
+        add_bash_values(out, c);
     strbuf_cstr(out, "    esac\n"
                      "    if [ -z \"$takes\" ]; then\n"
                      "        case $command in\n");
-    for (uint32_t i = 0; i < manual->command_count; i++) {
-        const struct manual_command *c = &manual->commands[i];
+    for (const struct cli_command *c = manual->commands; c->name; c++) {
         strbuf_format(out, "        %s) words='", c->name);
         add_bash_options(out, c);
         strbuf_char(out, '\'');
@@ -132,10 +125,10 @@ static void add_zsh_text(struct strbuf *out, const char *text) {
             strbuf_char(out, *text);
 }
 
-static void add_zsh_option(struct strbuf *out, const struct cli_option_text *o) {
+static void add_zsh_option(struct strbuf *out, const struct option_row *o) {
     // An option that may be given several times is offered again; "[=X]" takes its value behind a sign only.
     const bool again = o->argument && strstr(o->argument, "...");
-    const char *joint = is_optional(o) ? "=-" : o->argument ? "=" : "";
+    const char *joint = cli_option_is_optional(o) ? "=-" : o->argument ? "=" : "";
     for (int k = 0; k < (o->letter ? 2 : 1); k++) {
         strbuf_format(out, "        '%s", again ? "*" : "");
         if (k == 0)
@@ -144,7 +137,7 @@ static void add_zsh_option(struct strbuf *out, const struct cli_option_text *o) 
             strbuf_format(out, "-%c%s[", o->letter, o->argument ? "+" : "");
         add_zsh_text(out, o->doc);
         strbuf_char(out, ']');
-        if (is_optional(o)) {
+        if (cli_option_is_optional(o)) {
             strbuf_format(out, "::value:(%.*s)", (int)strcspn(o->argument + 2, "]"), o->argument + 2);
         } else if (has_words(o->argument)) {
             strbuf_cstr(out, ":value:(");
@@ -159,10 +152,10 @@ static void add_zsh_option(struct strbuf *out, const struct cli_option_text *o) 
     }
 }
 
-static void add_zsh_command(struct strbuf *out, const struct manual_command *c) {
+static void add_zsh_command(struct strbuf *out, const struct cli_command *c) {
     strbuf_format(out, "    %s)\n        _arguments \\\n", c->name);
-    for (uint32_t i = 0; i < c->option_count; i++)
-        add_zsh_option(out, &c->options[i]);
+    for (const struct option_row *row = NULL; (row = cli_next_option(c, row)) != NULL;)
+        add_zsh_option(out, row);
     if (has_words(c->operands)) {
         strbuf_cstr(out, "        '1:kind:(");
         add_words(out, c->operands);
@@ -177,9 +170,9 @@ void manual_zsh(const struct manual *manual, struct strbuf *out) {
                      "_glint() {\n"
                      "    local -a commands\n"
                      "    commands=(\n");
-    for (uint32_t i = 0; i < manual->command_count; i++) {
-        strbuf_format(out, "        '%s:", manual->commands[i].name);
-        add_zsh_text(out, manual->commands[i].summary);
+    for (const struct cli_command *c = manual->commands; c->name; c++) {
+        strbuf_format(out, "        '%s:", c->name);
+        add_zsh_text(out, c->summary);
         strbuf_cstr(out, "'\n");
     }
     strbuf_cstr(out, "    )\n"
@@ -191,8 +184,8 @@ void manual_zsh(const struct manual *manual, struct strbuf *out) {
                      "    shift words\n"
                      "    ((CURRENT--))\n"
                      "    case $command in\n");
-    for (uint32_t i = 0; i < manual->command_count; i++)
-        add_zsh_command(out, &manual->commands[i]);
+    for (const struct cli_command *c = manual->commands; c->name; c++)
+        add_zsh_command(out, c);
     strbuf_cstr(out, "    esac\n"
                      "}\n"
                      "if [[ $funcstack[1] == _glint ]]; then\n"
@@ -214,7 +207,7 @@ static void add_fish_text(struct strbuf *out, const char *text) {
     strbuf_char(out, '\'');
 }
 
-static void add_fish_option(struct strbuf *out, const char *when, const struct cli_option_text *o) {
+static void add_fish_option(struct strbuf *out, const char *when, const struct option_row *o) {
     strbuf_format(out, "complete -c glint -n '%s' -l %s", when, o->name);
     if (o->letter)
         strbuf_format(out, " -s %c", o->letter);
@@ -222,7 +215,7 @@ static void add_fish_option(struct strbuf *out, const char *when, const struct c
         strbuf_cstr(out, " -x -a '");
         add_words(out, o->argument);
         strbuf_char(out, '\'');
-    } else if (o->argument && !is_optional(o)) {
+    } else if (o->argument && !cli_option_is_optional(o)) {
         strbuf_cstr(out, " -r");
     }
     strbuf_cstr(out, " -d ");
@@ -234,10 +227,9 @@ void manual_fish(const struct manual *manual, struct strbuf *out) {
     strbuf_cstr(out,
                 "# Completions of glint for fish, made by 'glint manual fish' from the table of options.\n"
                 "complete -c glint -n __fish_use_subcommand -f -a help -d 'show help about a command'\n");
-    for (uint32_t i = 0; i < manual->program.option_count; i++)
-        add_fish_option(out, "__fish_use_subcommand", &manual->program.options[i]);
-    for (uint32_t i = 0; i < manual->command_count; i++) {
-        const struct manual_command *c = &manual->commands[i];
+    for (const struct option_row *row = NULL; (row = cli_next_option(NULL, row)) != NULL;)
+        add_fish_option(out, "__fish_use_subcommand", row);
+    for (const struct cli_command *c = manual->commands; c->name; c++) {
         char when[80];
         snprintf(when, sizeof when, "__fish_seen_subcommand_from %s", c->name);
         strbuf_format(out, "complete -c glint -n __fish_use_subcommand -f -a %s -d ", c->name);
@@ -248,7 +240,7 @@ void manual_fish(const struct manual *manual, struct strbuf *out) {
             add_words(out, c->operands);
             strbuf_cstr(out, "'\n");
         }
-        for (uint32_t k = 0; k < c->option_count; k++)
-            add_fish_option(out, when, &c->options[k]);
+        for (const struct option_row *row = NULL; (row = cli_next_option(c, row)) != NULL;)
+            add_fish_option(out, when, row);
     }
 }

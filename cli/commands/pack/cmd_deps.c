@@ -156,7 +156,7 @@ int cmd_deps(struct cli *cli) {
         return CLI_USAGE;
     struct listing listing = {.cli = cli, .form = (enum form)form};
     if (listing.form == FORM_MAKE && cli->stream.path.len)
-        return cli_usage(cli, cli->options.format_arg,
+        return cli_usage(cli, cli_option_place(cli, "format"),
                          "a rule needs the scene's name, and standard input has none: name a file");
     struct asset_store *store = asset_store_create();
     int worst = CLI_OK;

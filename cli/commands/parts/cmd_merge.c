@@ -5,6 +5,7 @@
 #include "cli/commands/pictures/provenance.h"
 #include "cli/commands/render_job.h"
 #include "cli/progress.h"
+#include "core/ranges.h"
 #include "render/frames/frame_name.h"
 #include "render/parts/parts.h"
 
@@ -85,7 +86,7 @@ static int add_parts(struct render_job *job, const uint32_t *order, uint32_t cou
 static int merge_at_once(struct render_job *job, const uint32_t *order, uint32_t count) {
     struct cli *cli = job->cli;
     const uint32_t width = job->image.width, height = job->image.height;
-    if ((uint64_t)width * height > SESSION_PIXELS_MOST) {
+    if ((uint64_t)width * height > RANGE_PIXELS_MOST) {
         const int status =
             cli_usage(cli, cli_operand_place(cli, 0),
                       "a picture of more than 64 megapixels is joined row by row: of parts with all "

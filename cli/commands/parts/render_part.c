@@ -20,15 +20,22 @@ static bool writes_part(const struct render_job *job) {
 
 bool render_wants_part(const struct render_job *job) {
     const struct cli_part *part = &job->cli->options.part;
-    return part->region_arg || part->tile_arg || part->samples_arg || writes_part(job);
+    return part->region[2] || part->tiles || part->has_samples || writes_part(job);
 }
 
 // ---- what does not go together
 
+// The later one of those that ask for some of the samples.
+static int samples_place(const struct cli *cli) {
+    const int from = cli_option_place(cli, "samples-from"), to = cli_option_place(cli, "samples-to");
+    return from > to ? from : to;
+}
+
 // The argument that asks for a part.
 static int place_of(const struct render_job *job) {
-    const struct cli_part *part = &job->cli->options.part;
-    int place = part->region_arg ? part->region_arg : part->tile_arg ? part->tile_arg : part->samples_arg;
+    int place = cli_option_place(job->cli, "region");
+    place = place ? place : cli_option_place(job->cli, "tile");
+    place = place ? place : samples_place(job->cli);
     for (uint32_t i = 0; i < job->output_count && !place; i++)
         place = job->outputs[i].is_part ? job->outputs[i].arg : 0;
     return place;
@@ -54,11 +61,11 @@ static const char *obstacle(const struct render_job *job) {
 
 int render_judge_part(struct render_job *job) {
     struct cli *cli = job->cli;
-    const struct cli_part *part = &cli->options.part;
     if (!render_wants_part(job))
         return CLI_OK;
-    if (part->region_arg && part->tile_arg) {
-        const int status = cli_usage(cli, part->tile_arg, "'--tile' and '--region' both say which pixels");
+    if (cli_option_place(cli, "region") && cli_option_place(cli, "tile")) {
+        const int status =
+            cli_usage(cli, cli_option_place(cli, "tile"), "'--tile' and '--region' both say which pixels");
         diag_help(&cli->sink, "leave one of them out");
         return status;
     }
@@ -74,14 +81,14 @@ static int plan_region(struct render_job *job) {
     struct part *part = &job->part;
     const uint32_t *r = wish->region;
     part->region = (struct part_region){0, 0, part->width, part->height};
-    if (wish->region_arg)
+    if (wish->region[2])
         part->region = (struct part_region){r[0], r[1], r[2], r[3]};
-    if (wish->region_arg && ((uint64_t)r[0] + r[2] > part->width || (uint64_t)r[1] + r[3] > part->height))
-        return cli_usage(cli, wish->region_arg,
+    if (wish->region[2] && ((uint64_t)r[0] + r[2] > part->width || (uint64_t)r[1] + r[3] > part->height))
+        return cli_usage(cli, cli_option_place(cli, "region"),
                          "the region ends at %u,%u, and the picture has %u x %u pixels", r[0] + r[2],
                          r[1] + r[3], part->width, part->height);
-    if (wish->tile_arg && !parts_cut(part->width, part->height, wish->tile, wish->tiles, &part->region)) {
-        const int status = cli_usage(cli, wish->tile_arg,
+    if (wish->tiles && !parts_cut(part->width, part->height, wish->tile, wish->tiles, &part->region)) {
+        const int status = cli_usage(cli, cli_option_place(cli, "tile"),
                                      "a picture of %u rows has at most %u parts, of 8 rows each, not %u",
                                      part->height, parts_most(part->height), wish->tiles);
         diag_help(&cli->sink, "take fewer, or parts of its samples: --samples-from, --samples-to");
@@ -97,7 +104,7 @@ static int plan_samples(struct render_job *job) {
     part->end_sample = wish->samples_to ? (uint32_t)wish->samples_to : part->samples;
     if (part->first_sample < part->end_sample && part->end_sample <= part->samples)
         return CLI_OK;
-    return cli_usage(job->cli, wish->samples_arg,
+    return cli_usage(job->cli, samples_place(job->cli),
                      "samples %u to %u, the last not included, are not of a picture with %u samples",
                      part->first_sample, part->end_sample, part->samples);
 }

@@ -56,8 +56,8 @@ static bool wants(const struct render_job *job, enum aov aov) {
 
 static int judge_error(const struct render_job *job) {
     struct cli *cli = job->cli;
-    const int status =
-        cli_usage(cli, cli->options.aov_arg, "--aov knows 'error' only where pixels end by their error");
+    const int status = cli_usage(cli, cli_option_place(cli, "aov"),
+                                 "--aov knows 'error' only where pixels end by their error");
     if (cli_device_is_reference(cli))
         diag_help(&cli->sink, "the reference takes all samples of all pixels: choose a device");
     else
@@ -77,7 +77,7 @@ int render_judge_aovs(struct render_job *job) {
         most = scene->bodies[i].triangle_count > most ? scene->bodies[i].triangle_count : most;
     if (most < FLOAT_WHOLE_MOST || !aov_needs_hits(job->cli->options.aovs))
         return CLI_OK;
-    const int status = cli_usage(job->cli, job->cli->options.aov_arg,
+    const int status = cli_usage(job->cli, cli_option_place(job->cli, "aov"),
                                  "--aov: a PFM file holds no number as large as %u exactly", most);
     diag_help(&job->cli->sink, "write an OpenEXR picture, which does: -o picture.exr");
     return status;

@@ -28,20 +28,17 @@ static bool read_max_error(struct cli *cli, struct tradeoff_options *options) {
         struct nearest search = nearest_begin(name);
         for (int i = 0; i < METRIC_COUNT; i++)
             nearest_offer(&search, str_from(metric_infos[i].name));
-        const str best = nearest_best(&search);
-        cli_usage(cli, m->max_error_arg, "--max-error does not know the metric '%.*s'", STR_ARG(name));
-        if (best.len)
-            diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(best));
-        else
-            diag_help(
-                &cli->sink,
-                "write METRIC=X, where METRIC is one of mae, rmse, relmse, largest, psnr, ssim, flip, share");
+        cli_usage(cli, cli_option_place(cli, "max-error"), "--max-error does not know the metric '%.*s'",
+                  STR_ARG(name));
+        cli_did_you_mean(
+            cli, &search,
+            "write METRIC=X, where METRIC is one of mae, rmse, relmse, largest, psnr, ssim, flip, share");
         return false;
     }
     if (equals && number_parse(str_from(equals + 1), &options->max_error) == NUMBER_OK &&
         (options->max_error >= 0 || metric_infos[options->metric].higher_is_better))
         return true;
-    cli_usage(cli, m->max_error_arg, "--max-error takes METRIC=X, such as %s=%s, not '%s'",
+    cli_usage(cli, cli_option_place(cli, "max-error"), "--max-error takes METRIC=X, such as %s=%s, not '%s'",
               metric_infos[options->metric].name,
               metric_infos[options->metric].higher_is_better ? "0.95" : "0.01", text);
     return false;
@@ -262,7 +259,7 @@ int cli_choose_settings(struct cli *cli, double levels, struct asset_store *stor
     if (!cli_study_options(cli, &options))
         return CLI_USAGE;
     if (cli_device_is_reference(cli) || str_equal(cli->options.camera, STR("all")))
-        return cli_usage(cli, cli->options.measure.max_error_arg,
+        return cli_usage(cli, cli_option_place(cli, "max-error"),
                          "--max-error and --max-time work for one camera, on a device");
     options.search = true;
     options.levels = levels;

@@ -63,8 +63,7 @@ static void one(const struct test_case *test, struct json_writer *json) {
 void test_json(const struct test_run *run, struct strbuf *out) {
     const struct test_counts counts = test_count(run);
     struct json_writer json;
-    json_writer_init(&json, out, 3);
-    json_open_report(&json, "glint test", 1);
+    json_report_begin(&json, out, 3, "glint test", 1);
     json_write_text(&json, "folder", run->folder);
     if (run->file_path.len)
         json_write_text(&json, "file", run->file_path);
@@ -86,6 +85,5 @@ void test_json(const struct test_run *run, struct strbuf *out) {
     json_write_integer(&json, "scenes_read", run->loads);
     json_write_real(&json, "seconds", run->seconds);
     json_write_boolean(&json, "passed", test_passed(run));
-    json_close_object(&json);
-    json_end(&json);
+    json_report_end(&json);
 }

@@ -177,7 +177,7 @@ static void measure(struct judging *j) {
     }
     test->is_measured = true;
     test->result.not_finite_together = not_finite;
-    bool keeps = not_finite <= test->settings.bounds.not_finite;
+    bool keeps = (double)not_finite <= test->settings.bounds.not_finite;
     for (int m = 0; m < METRIC_COUNT; m++)
         keeps = keeps && !test_breaks(test, (enum metric)m);
     test->state = same ? TEST_SAME : keeps ? TEST_WITHIN : TEST_DIFFERS;

@@ -360,11 +360,8 @@ static int choose(struct test_run *run) {
     run->cases.count = kept;
     if (kept)
         return CLI_OK;
-    cli_usage(cli, cli->options.test.only_arg, "no picture's name matches '%s'", only);
-    if (nearest_best(&search).len)
-        diag_help(&cli->sink, "did you mean '%.*s'?", STR_ARG(nearest_best(&search)));
-    else
-        diag_help(&cli->sink, "names are those of the scenes in the folder: 'hall', 'lamps/*'");
+    cli_usage(cli, cli_option_place(cli, "only"), "no picture's name matches '%s'", only);
+    cli_did_you_mean(cli, &search, "names are those of the scenes in the folder: 'hall', 'lamps/*'");
     return CLI_USAGE;
 }
 

@@ -53,7 +53,7 @@ static void broken_words(const struct test_case *test, struct strbuf *out) {
     for (int m = 0; m < METRIC_COUNT; m++)
         if (test_breaks(test, (enum metric)m))
             metric_words(test, (enum metric)m, true, out);
-    if (not_finite > test->settings.bounds.not_finite) {
+    if ((double)not_finite > test->settings.bounds.not_finite) {
         add(out, "");
         strbuf_format(out, "%llu pixel%s infinite or not a number in one of the two only",
                       (unsigned long long)not_finite, not_finite == 1 ? "" : "s");

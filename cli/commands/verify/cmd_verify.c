@@ -6,6 +6,7 @@
 #include "cli/commands/render_job.h"
 #include "cli/device.h"
 #include "core/heap.h"
+#include "core/number.h"
 #include "files/files.h"
 #include "grammar/ir.h"
 #include "scene/content.h"
@@ -121,7 +122,7 @@ static void take_settings(struct verify *v) {
     o->device = device_of(v);
     o->quiet = true;
     int32_t width, height;
-    if (record_read_size(v->was.fields[RECORD_SCALED], &width, &height)) {
+    if (number_parse_size(v->was.fields[RECORD_SCALED], "x", INT32_MAX, &width, &height)) {
         o->measure.scale_width = (uint32_t)width;
         o->measure.scale_height = (uint32_t)height;
     }

@@ -161,8 +161,7 @@ void verify_json(const struct verify *v, struct strbuf *out) {
         [RECORD_SETTINGS] = "settings", [RECORD_SCALED] = "scaled",    [RECORD_COMMAND] = "command",
     };
     struct json_writer json;
-    json_writer_init(&json, out, 2);
-    json_open_report(&json, "glint verify", 1);
+    json_report_begin(&json, out, 2, "glint verify", 1);
     json_write_text(&json, "picture", str_from(v->path));
     json_write_text(&json, "kind", str_from(v->pictures[0].kind));
     json_write_text(&json, "scene", str_from(v->scene));
@@ -172,6 +171,5 @@ void verify_json(const struct verify *v, struct strbuf *out) {
     pixels_json(v, &json);
     json_write_boolean(&json, "same_bytes", verify_bytes_same(v));
     json_write_boolean(&json, "verified", verify_holds(v));
-    json_close_object(&json);
-    json_end(&json);
+    json_report_end(&json);
 }

@@ -126,8 +126,7 @@ static void put_choice(const struct tradeoff *t, const char *key, double bound, 
 
 void tradeoff_json(const struct tradeoff *t, const char *scene, struct strbuf *out) {
     struct json_writer json;
-    json_writer_init(&json, out, 3);
-    json_open_report(&json, "glint tradeoff", 1);
+    json_report_begin(&json, out, 3, "glint tradeoff", 1);
     json_write_text(&json, "scene", str_from(scene));
     json_write_text(&json, "device", str_from(t->device));
     json_write_text(&json, "metric", str_from(metric_infos[t->options.metric].name));
@@ -156,6 +155,5 @@ void tradeoff_json(const struct tradeoff *t, const char *scene, struct strbuf *o
     for (uint32_t i = 0; i < t->count; i++)
         put_row(t, i, &json);
     json_close_list(&json);
-    json_close_object(&json);
-    json_end(&json);
+    json_report_end(&json);
 }

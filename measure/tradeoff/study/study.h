@@ -8,6 +8,7 @@
 #define GLINT_MEASURE_TRADEOFF_STUDY_STUDY_H
 
 #include "core/limits.h"
+#include "core/ranges.h"
 #include "core/strbuf.h"
 #include "diag/diag.h"
 #include "files/folder_store.h"
@@ -18,8 +19,8 @@
 #include "tracer/render/render.h"
 
 enum {
-    TRADEOFF_COST_MOST = 64,    // settings that cost more than this many times the file's own are left out
-    SEARCH_SAMPLES_MOST = 4096, // that a picture may have
+    TRADEOFF_COST_MOST = 64, // settings that cost more than this many times the file's own are left out
+    SEARCH_SAMPLES_MOST = RANGE_SAMPLES_MOST,
 };
 
 // What a whole study may take where nothing else is asked for, in seconds.

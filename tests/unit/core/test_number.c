@@ -225,6 +225,38 @@ static void integers(void **state) {
     }
 }
 
+// Both ends belong to a range, and what is refused leaves the value alone.
+static void within_a_range(void **state) {
+    (void)state;
+    int32_t whole = 7;
+    double real = 7;
+    assert_true(number_parse_whole(STR("-2"), -2, 5, &whole) && whole == -2);
+    assert_true(number_parse_whole(STR("5"), -2, 5, &whole) && whole == 5);
+    assert_false(number_parse_whole(STR("-3"), -2, 5, &whole) ||
+                 number_parse_whole(STR("6"), -2, 5, &whole) ||
+                 number_parse_whole(STR("1.0"), -2, 5, &whole) || number_parse_whole(STR(""), -2, 5, &whole));
+    assert_int_equal(whole, 5);
+    assert_true(number_parse_real(STR("0.25"), 0.25, 0.5, &real) && real == 0.25);
+    assert_true(number_parse_real(STR("5e-1"), 0.25, 0.5, &real) && real == 0.5);
+    assert_false(number_parse_real(STR("0.2499"), 0.25, 0.5, &real) ||
+                 number_parse_real(STR("0.51"), 0.25, 0.5, &real) ||
+                 number_parse_real(STR("nan"), 0.25, 0.5, &real));
+    assert_true(real == 0.5);
+}
+
+static void sizes(void **state) {
+    static const char *const bad[] = {"",    "x",   "4",   "4x",  "x4",  "4x4x4",
+                                      "0x4", "4x0", "9x1", "1x9", "4y4", "4X4"};
+    int32_t width = 0, height = 0;
+    (void)state;
+    assert_true(number_parse_size(STR("1x8"), "x", 8, &width, &height) && width == 1 && height == 8);
+    assert_true(number_parse_size(STR("8X1"), "xX", 8, &width, &height) && width == 8 && height == 1);
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        assert_false(number_parse_size(str_from(bad[i]), "x", 8, &width, &height));
+    assert_false(number_parse_size((str){"4\0004", 3}, "x", 8, &width, &height));
+    assert_int_equal(width, 8);
+}
+
 static void every_status_has_words(void **state) {
     (void)state;
     for (int a = NUMBER_OK; a <= NUMBER_DASH; a++) {
@@ -402,6 +434,8 @@ int main(void) {
         cmocka_unit_test(takes_a_number_from_the_beginning),
         cmocka_unit_test(long_texts_end_at_1000_characters),
         cmocka_unit_test(integers),
+        cmocka_unit_test(within_a_range),
+        cmocka_unit_test(sizes),
         cmocka_unit_test(every_status_has_words),
         cmocka_unit_test(parses_as_strtod_does),
         cmocka_unit_test(writes_the_shortest_of_random_doubles),

@@ -1,4 +1,4 @@
-#include "cli/options/words.h"
+#include "cli/words.h"
 
 const char *const cli_purpose =
     "Renders pictures that are described in a text file: scenes in YAML or XML, Whitted ray tracing on\n"
