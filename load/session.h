@@ -92,7 +92,7 @@ struct session {
     bool unsettled;        // pixels are still being decoded, and nothing has failed so far
     enum session_state state;
     double read_seconds, assets_seconds, lint_seconds;
-    struct parser_kept *parser; // of a session that is kept
+    struct parser_kept *parser; // of one whose text is kept (session_kept.h)
 };
 
 // Loads `options->path`. Always leaves a session that session_finish accepts, whatever the result.
@@ -128,9 +128,6 @@ bool session_rebase(struct session *session, str out);
 
 // Only one file, for `convert`: no includes, no assets. The IR is origin.files[0].scene too.
 enum session_state session_load_text(struct session *session, const struct session_options *options);
-// All that does not depend on options.sets: no assets, and no scene, but session->parser, whose caller drops
-// it; NULL where there is anything to report.
-void session_load_kept(struct session *session, const struct session_options *options);
 // `.glintrc.yaml` by itself: a session without a scene (SESSION_NO_SCENE).
 enum session_state session_load_settings(struct session *session, const struct session_options *options);
 

@@ -16,9 +16,6 @@ struct session_kept;
 struct session_kept *session_keep(const struct session_options *options);
 // Whether a session with these options would read the same again: none of its files has changed.
 bool session_kept_fits(const struct session_kept *kept, const struct session_options *options);
-void session_kept_hold(struct session_kept *kept);
 void session_kept_release(struct session_kept *kept); // NULL does nothing
-// The session whose text it is, and what the parser keeps of it.
-const struct session *session_kept_text(const struct session_kept *kept);
 
 #endif

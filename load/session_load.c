@@ -1,5 +1,6 @@
 // From path and options to a loaded session: the stages one after the other.
 #include "core/clock.h"
+#include "core/heap.h"
 #include "core/ranges.h"
 #include "core/strbuf.h"
 #include "core/timeline.h"
@@ -14,6 +15,7 @@
 #include "parser/parser.h"
 #include "parser/tree/reader.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -289,6 +291,12 @@ static void report_name(struct session *session, uint32_t source) {
               reader_is_xml(session->options.path, session->sources.items[source].text) ? "xml" : "yaml");
 }
 
+struct session_kept {
+    _Atomic uint32_t holders;
+    struct session_options options; // as they were given
+    struct session text;
+};
+
 static struct parser_input parser_input(struct session *session) {
     return (struct parser_input){.sources = &session->sources,
                                  .files = &session->files,
@@ -350,7 +358,7 @@ static enum session_state load_stages(struct session *session, struct asset_stor
 
 // The same of what is kept.
 static enum session_state load_kept(struct session *session, struct asset_store *store) {
-    const struct session *text = session_kept_text(session->options.kept);
+    const struct session *text = &session->options.kept->text;
     const double start = clock_seconds();
     struct parser_output output = {0};
     session->options.limits = text->options.limits;
@@ -411,7 +419,7 @@ static enum session_state guarded_load(struct session *session, const struct ses
     struct loading loading = {session, store, extent};
     *session = (struct session){.options = *options};
     if (options->kept)
-        session_kept_hold(options->kept);
+        options->kept->holders++;
     diag_sink_init(&session->sink);
     arena_init(&session->arena, limits_size(&options->limits, LIMIT_SCENE_MEMORY));
     run_guarded(session, load, &loading);
@@ -441,10 +449,6 @@ enum session_state session_load_text(struct session *session, const struct sessi
     return state;
 }
 
-void session_load_kept(struct session *session, const struct session_options *options) {
-    guarded_load(session, options, NULL, EXTENT_KEPT);
-}
-
 enum session_state session_load_settings(struct session *session, const struct session_options *options) {
     return guarded_load(session, options, NULL, EXTENT_SETTINGS);
 }
@@ -456,4 +460,43 @@ void session_finish(struct session *session) {
     diag_sink_finish(&session->sink);
     arena_finish(&session->arena);
     session_kept_release(session->options.kept);
+}
+
+// ---- text that is kept
+
+struct session_kept *session_keep(const struct session_options *options) {
+    if (options->overlay_count || options->text_only || options->unnamed ||
+        assets_is_mesh_path(options->path))
+        return NULL;
+    struct session_kept *kept = heap_zeroed(1, sizeof *kept);
+    if (!kept)
+        return NULL;
+    kept->options = *options;
+    kept->holders = 1;
+    guarded_load(&kept->text, options, NULL, EXTENT_KEPT);
+    if (kept->text.parser)
+        return kept;
+    session_kept_release(kept);
+    return NULL;
+}
+
+bool session_kept_fits(const struct session_kept *kept, const struct session_options *options) {
+    const struct session_options *own = &kept->options;
+    return str_equal(own->path, options->path) && str_equal(own->found_in, options->found_in) &&
+           str_equal(own->named_in, options->named_in) && own->names_scene == options->names_scene &&
+           own->asset_paths == options->asset_paths && own->asset_path_count == options->asset_path_count &&
+           own->named_asset_path_count == options->named_asset_path_count &&
+           own->overlay_count == options->overlay_count && own->policy == options->policy &&
+           own->judged == options->judged && own->text_only == options->text_only &&
+           own->unnamed == options->unnamed &&
+           memcmp(&own->limits, &options->limits, sizeof own->limits) == 0 &&
+           files_are_same(&kept->text.files);
+}
+
+void session_kept_release(struct session_kept *kept) {
+    if (!kept || --kept->holders > 0)
+        return;
+    parser_drop(kept->text.parser);
+    session_finish(&kept->text);
+    free(kept);
 }

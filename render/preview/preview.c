@@ -179,7 +179,8 @@ static enum preview_state take_by_device(struct preview *p, const struct preview
                                          const atomic_bool *cancelled, struct preview_picture *picture,
                                          bool *failed) {
     struct drawing made = {.cancelled = cancelled};
-    const enum live_state shown = live_show(&p->live, live_read(&p->live, &wish->session, false), wish->camera);
+    const enum live_state shown =
+        live_show(&p->live, live_read(&p->live, &wish->session, false), wish->camera);
     *failed = shown == LIVE_FAILED;
     if (shown != LIVE_SHOWN)
         return p->live.broken ? PREVIEW_BROKEN : PREVIEW_NO_MEMORY;
