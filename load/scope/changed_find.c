@@ -27,6 +27,11 @@ static str root_folder(struct changed *changed, str top) {
 
 static bool ask_git(struct changed *changed, const char *revision, str *top) {
     struct git_changes changes;
+    if (revision[0] == '-') { // git would take it for one of its own
+        changed->why =
+            arena_format(changed->arena, "'%s' is not a revision: it begins as an option does", revision);
+        return false;
+    }
     if (!git_changed_since(&changes, changed->arena, str_from(revision))) {
         changed->why = arena_format(changed->arena, "what changed since '%s' is not known: %.*s", revision,
                                     STR_ARG(changes.why));

@@ -40,6 +40,12 @@ tells "a file of another name is a scene, if it is named" 1 '^glint: 1 of 7 scen
 ok "and read" grep -q '^gold4.yaml:2:' out.txt
 rm gold4.yaml
 
+# ---- a revision is no option of git
+for word in --output=made.txt --no-index -O/etc/passwd --ext-diff; do
+    tells "'$word' is no revision" 2 "is not a revision: it begins as an option does" changed -- "$word"
+done
+ok "and makes no file" test ! -e made.txt
+
 # ---- a material is renamed
 sed -i 's/gold:/oro:/' lib/metals.yaml
 tells "scenes that a rename breaks fail" 1 '^glint: 3 of 6 scenes read what changed: 3 errors in 3 files$' changed lib/metals.yaml
