@@ -22,11 +22,9 @@ bool files_exist(str path) {
 }
 
 static bool has_ending(const struct files_found *found, str name) {
-    for (const char *const *ending = found->endings; *ending; ending++) {
-        size_t length = strlen(*ending);
-        if (name.len > length && memcmp(name.ptr + name.len - length, *ending, length) == 0)
+    for (const char *const *ending = found->endings; *ending; ending++)
+        if (name.len > strlen(*ending) && str_ends_with_nocase(name, *ending))
             return true;
-    }
     return false;
 }
 

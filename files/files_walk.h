@@ -9,7 +9,7 @@
 
 struct files_found {
     struct arena *arena;
-    const char *const *endings; // ".glint.yaml", ...; NULL at the end; case matters
+    const char *const *endings; // ".yaml", ...; NULL at the end; in capitals too
     struct {
         str *items;
         uint32_t count, capacity;

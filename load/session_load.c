@@ -284,6 +284,8 @@ static void report_name(struct session *session, uint32_t source) {
     size_t dot = base.len;
     while (dot > 0 && base.ptr[dot - 1] != '.')
         dot--;
+    if (str_ends_with_nocase(str_slice(base, 0, dot), ".glint."))
+        dot -= strlen("glint.");
     diag_add(&session->sink, DIAG_SCENE_NAME, (span){source, 0, 0},
              "this begins as a scene does, and was left out, because its name is not that of a scene");
     diag_help(&session->sink, "rename it to '%.*sglint.%s', or name it on the command line", (int)dot,

@@ -61,7 +61,8 @@ struct check {
         struct check_file *items;
         uint32_t count, capacity;
     } files;
-    struct str_map paths;     // of files
+    struct files known;       // that paths are looked up in
+    struct str_map paths;     // of files, links of their folders resolved
     struct scene_names names; // of those in folders, and of others that begin as scenes do
     uint32_t named;           // scenes that are named where all others are found
     uint32_t first;           // file of the step; at last, the first of those others
@@ -174,12 +175,15 @@ static void with_all(struct check *check,
 // A file that is named twice, or is in a folder that is named too, is checked once. NULL: it is there
 // already.
 static struct check_file *add_file(struct check *check, const char *path, const char *folder) {
-    uint32_t *place = str_map_at(&check->paths, str_from(path));
+    struct arena *arena = &check->cli->arena;
+    const str name = str_from(path);
+    const str folder_of = files_canonical(&check->known, path_folder(name));
+    uint32_t *place = str_map_at(&check->paths, path_join(arena, folder_of, path_base(name)));
     if (*place) {
         check->files.items[*place - 1].folder = folder ? check->files.items[*place - 1].folder : NULL;
         return NULL;
     }
-    struct check_file *file = ARENA_PUSH(&check->cli->arena, &check->files);
+    struct check_file *file = ARENA_PUSH(arena, &check->files);
     *place = check->files.count;
     file->path = path;
     file->folder = folder;
@@ -249,12 +253,10 @@ static void keep_affected(struct check *check) {
 // What begins as a scene does and none reads: those that were named are scenes, the others are warned of.
 static void add_others(struct check *check, bool named) {
     const struct scene_names *names = &check->names;
-    struct files files;
-    files_init(&files, &check->cli->arena);
     for (uint32_t i = 0; i < names->others.count; i++) {
         const struct scene_other *other = &names->others.items[i];
         if (names->read[i] || (other->folder.len == 0) != named ||
-            (check->changed && !changed_holds(check->changed, files_canonical(&files, other->path))))
+            (check->changed && !changed_holds(check->changed, files_canonical(&check->known, other->path))))
             continue;
         struct check_file *file = add_file(check, other->path.ptr, named ? NULL : other->folder.ptr);
         check->looked_at += named && file;
@@ -286,6 +288,15 @@ static struct sums sum_up(const struct check *check) {
     return sums;
 }
 
+// Folders of scenes of which 'ignore' leaves none: what is green would have checked nothing. Files that are
+// named may be ignored: hooks name what changed.
+static bool is_all_ignored(const struct check *check) {
+    bool found = false;
+    for (uint32_t i = 0; i < check->files.count; i++)
+        found = found || check->files.items[i].folder;
+    return found && !check->changed && sum_up(check).ignored == check->files.count;
+}
+
 static void put_changed(const struct check *check, struct strbuf *out) {
     if (check->first)
         strbuf_format(out, "%u of %u scene%s read%s what changed", check->first, check->looked_at,
@@ -301,7 +312,7 @@ static void put_closing(const struct check *check, struct strbuf *out) {
     const struct sums sums = sum_up(check);
     const uint32_t findings = sums.errors + sums.warnings + sums.notes;
     const uint32_t files = check->files.count;
-    const bool nothing = files && sums.ignored == files;
+    const bool nothing = files && sums.ignored == files && !is_all_ignored(check);
     bool tells = findings > 1 || (findings == 1 && files > 1) || nothing;
     if (check->cli->options.quiet || !(tells || check->changed))
         return;
@@ -509,6 +520,10 @@ static int check_files(struct check *check, int worst) {
     }
     int written = write_report(check);
     worst = written > worst ? written : worst;
+    if (good && is_all_ignored(check))
+        worst =
+            cli_usage(cli, cli_operand_place(cli, 0), "nothing was checked: 'ignore' leaves out %u scene%s",
+                      check->files.count, check->files.count == 1 ? "" : "s");
     tell_stale(check);
     written = cli->options.write_baseline ? write_found(check) : CLI_OK;
     worst = written > worst ? written : worst;
@@ -533,6 +548,7 @@ static int run(struct check *check) {
 int cmd_check(struct cli *cli) {
     struct check check = {.cli = cli};
     str_map_init(&check.paths, &cli->arena);
+    files_init(&check.known, &cli->arena);
     int format = 0;
     if (!cli_format(cli, formats, &format))
         return CLI_USAGE;

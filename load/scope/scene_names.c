@@ -7,7 +7,9 @@
 #include <string.h>
 
 enum {
-    HEAD_BYTES = 8192, // a comment may be before the first word
+    HEAD_BYTES = 8192,           // of a file, to see how it begins,
+    HEAD_MOST = 2 * 1024 * 1024, // and of one that begins with a long comment
+    WORDS_BYTES = 1024,          // <Scene and its attributes, to glint=
     SHOWN = 3,
 };
 
@@ -55,11 +57,25 @@ static bool take(str *text, const char *word) {
     return true;
 }
 
-static bool begins_as_xml(str text) {
+static str skip_before_xml(str text) {
     while (str_starts_with(text, STR("<?")) || str_starts_with(text, STR("<!")))
         text = skip_space(str_starts_with(text, STR("<!--")) ? skip_past(text, "-->")
                           : str_starts_with(text, STR("<?")) ? skip_past(text, "?>")
                                                              : skip_past(text, ">"));
+    return text;
+}
+
+static str skip_before_yaml(str text) {
+    for (;;) {
+        text = skip_space(text);
+        if (str_starts_with(text, STR("#")) || str_starts_with(text, STR("%")))
+            text = skip_past(text, "\n");
+        else if (!take(&text, "---"))
+            return text;
+    }
+}
+
+static bool begins_as_xml(str text) {
     if (!take(&text, "<Scene") || !text.len || !is_space(text.ptr[0]))
         return false;
     for (size_t at = 0; at < text.len && text.ptr[at] != '>'; at++) {
@@ -72,13 +88,6 @@ static bool begins_as_xml(str text) {
 }
 
 static bool begins_as_yaml(str text) {
-    for (;;) {
-        text = skip_space(text);
-        if (str_starts_with(text, STR("#")) || str_starts_with(text, STR("%")))
-            text = skip_past(text, "\n");
-        else if (!take(&text, "---"))
-            break;
-    }
     take(&text, "{"); // JSON
     text = skip_space(text);
     const bool is_key = take(&text, "glint") || take(&text, "\"glint\"") || take(&text, "'glint'");
@@ -86,9 +95,15 @@ static bool begins_as_yaml(str text) {
     return is_key && text.len && text.ptr[0] == ':';
 }
 
-// Whether a text begins as a scene does: with 'glint:', or with <Scene glint=, after what may be before that.
-static bool scene_text_fits(str text) {
+// What follows the comments, and whatever else may be before the first word.
+static str skip_before(str text) {
     text = skip_space(str_slice(text, str_skip_mark(text), text.len));
+    return str_starts_with(text, STR("<")) ? skip_before_xml(text) : skip_before_yaml(text);
+}
+
+// Whether a text begins as a scene does: with 'glint:', or with <Scene glint=.
+static bool scene_text_fits(str text) {
+    text = skip_before(text);
     return str_starts_with(text, STR("<")) ? begins_as_xml(text) : begins_as_yaml(text);
 }
 
@@ -97,7 +112,16 @@ static bool scene_text_fits(str text) {
 static bool file_begins_as_scene(const char *path) {
     struct strbuf head;
     strbuf_init(&head);
-    const bool fits = stream_read_file(path, HEAD_BYTES, &head) == 0 && scene_text_fits(strbuf_view(&head));
+    size_t most = HEAD_BYTES;
+    int error = stream_read_file(path, most, &head);
+    // The first word is near the end of what was read, or after it.
+    while (!error && head.len == most && most < HEAD_MOST &&
+           skip_before(strbuf_view(&head)).len < WORDS_BYTES) {
+        most *= 16;
+        strbuf_clear(&head);
+        error = stream_read_file(path, most, &head);
+    }
+    const bool fits = error == 0 && scene_text_fits(strbuf_view(&head));
     strbuf_finish(&head);
     return fits;
 }

@@ -31,10 +31,31 @@ tells "and can be turned off by path" 0 - "$glint" check . --ignore '*.json' --i
 tells "a file that is named is checked" 1 '^other.xml:4:.*E206' "$glint" check . other.xml
 "$glint" format . >out.txt 2>&1
 ok "format warns too" test "$(grep -c W803 out.txt)" -eq 3
+cp scene.yaml capital.glint.YAML
+tells "capitals in an ending hide no scene" 0 "^capital.glint.YAML:1:1: warning: .*W803" "$glint" check .
+ok "nor confuse its new name" grep -q "rename it to 'capital.glint.yaml'" out.txt
+{ seq -f '# line %.0f of a long licence' 20000; tail -c +4 scene.yaml; } >long.yaml
+{ echo '<!--'; seq -f 'line %.0f of a long licence' 20000; echo '-->'; tail -n 2 other.xml; } >long.xml
+tells "a long comment before it hides none" 0 '^long.yaml:1:1: warning: .*W803' "$glint" check .
+ok "in XML neither" grep -q '^long.xml:1:1: warning: .*W803' out.txt
+rm capital.glint.YAML long.yaml long.xml
+tells "a file is checked once, however often it is named" 0 '^glint: 3 warnings in 4 files; 1 clean$' "$glint" check . ./good.glint.yaml "$PWD/good.glint.yaml" ../plain/good.glint.yaml
 printf 'include: [scene.yaml]\nglint: 1\n%s\n' "$view" >good.glint.yaml
 tells "what a scene reads is no scene that was forgotten" 0 '^glint: 2 warnings in 3 files' "$glint" check .
 "$glint" format --check . >out.txt 2>&1
 ok "for format neither" test "$(grep -c W803 out.txt)" -eq 2
+cd .. || exit 2
+
+# ---- nothing is left
+mkdir -p left/drafts && cd left || exit 2
+printf 'glint: 1\nspheres: [{radius: -1}]\n' >drafts/a.glint.yaml
+printf 'ignore: ["drafts/**"]\n' >.glintrc.yaml
+for format in text json sarif; do
+    tells "a folder that is ignored as a whole, $format" 2 "error: nothing was checked: 'ignore' leaves out 1 scene" "$glint" check . --format $format
+done
+tells "a file that is named may be" 0 "^glint: nothing was checked: 'ignore' leaves out 1 scene\$" "$glint" check drafts/a.glint.yaml
+printf 'glint: 1\n%s\n%s\n' "$view" "$ball" >good.glint.yaml
+tells "one that is left is enough" 0 - "$glint" check .
 cd .. || exit 2
 
 # ---- --changed
