@@ -167,12 +167,12 @@ static bool measure_alone(const struct bench *bench, const struct bench_scene *s
     static const struct contestant small[] = {
         {"glint, kernel made for the scene", WIDTH, HEIGHT, 1, false, false, false},
         {"glint, kernel for everything", WIDTH, HEIGHT, 1, true, false, false},
-        {"glint, counting rays (--stats)", WIDTH, HEIGHT, 1, false, false, true},
+        {"glint, counting rays (--count-rays)", WIDTH, HEIGHT, 1, false, false, true},
     };
     static const struct contestant large[] = {
         {"glint, kernel made for the scene", 2 * WIDTH, 2 * HEIGHT, 1, false, false, false},
         {"glint, kernel for everything", 2 * WIDTH, 2 * HEIGHT, 1, true, false, false},
-        {"glint, counting rays (--stats)", 2 * WIDTH, 2 * HEIGHT, 1, false, false, true},
+        {"glint, counting rays (--count-rays)", 2 * WIDTH, 2 * HEIGHT, 1, false, false, true},
         {"glint, double precision", 2 * WIDTH, 2 * HEIGHT, 1, false, true, false},
     };
     static const struct contestant samples[] = {

@@ -151,6 +151,7 @@ struct cli_options {
     struct cli_farm farm;
     struct cli_test test;
     enum cli_stats stats;
+    bool count_rays;
     bool as_file, no_cache; // of the reference
     bool skip_pixels;       // of images, when checking
     bool audit, has_max_off;

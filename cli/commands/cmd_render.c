@@ -103,6 +103,7 @@ static int report_stats(struct render_job *job) {
     getrusage(RUSAGE_SELF, &usage);
     s->peak_memory_bytes = usage.ru_maxrss * 1024;
     s->timeline = job->timeline;
+    s->has_rays = job->cli->options.count_rays;
     s->begun = job->cli->begun;
     s->read_seconds = job->session.read_seconds;
     s->assets_seconds = job->session.assets_seconds;
@@ -150,10 +151,10 @@ static int render_at_once(struct render_job *job, uint32_t camera, uint32_t came
     return status;
 }
 
-// After the picture was written: it is not waited for.
+// After the picture was written: it is not waited for. Bands and parts count while they are made.
 static int count_rays(struct render_job *job) {
     const double start = clock_seconds();
-    if (!job->cli->options.stats || job->shot.wish.counts)
+    if (!job->cli->options.count_rays || job->shot.wish.counts)
         return CLI_OK;
     const enum shot_status status = shot_count(&job->shot, NULL, &job->stats.last);
     job->stats.count_seconds = clock_seconds() - start;
@@ -200,7 +201,7 @@ static int render_by_device(struct render_job *job, uint32_t first, uint32_t end
     if (status != CLI_OK)
         return status;
     const struct shot_wish wish = {.region = render_first_region(job),
-                                   .counts = job->cli->options.stats && (job->in_bands || job->is_part),
+                                   .counts = job->cli->options.count_rays && (job->in_bands || job->is_part),
                                    .audits = render_wants_audit(&job->cli->options),
                                    .ready = job->is_apart ? is_ready : NULL,
                                    .ready_context = job};

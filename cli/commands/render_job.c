@@ -50,11 +50,10 @@ int render_tell_stats(const struct render_job *job, str text) {
     return CLI_OK;
 }
 
-// ---- a picture states its own error: --audit, --max-off and --stats
+// ---- a picture states its own error: --audit and --max-off
 
 bool render_wants_audit(const struct cli_options *options) {
-    const bool is_part = options->part.region[2] || options->part.tiles || options->part.has_samples;
-    return options->audit || options->has_max_off || (options->stats && !is_part);
+    return options->audit || options->has_max_off;
 }
 
 static struct audit_wish wish_of(const struct render_job *job) {

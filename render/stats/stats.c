@@ -57,6 +57,24 @@ static double mean_samples(const struct stats *s) {
     return (double)s->last.all_samples / ((double)s->width * s->height);
 }
 
+static void put_rays_text(const struct render_rays *r, struct strbuf *out) {
+    strbuf_cstr(out, "rays\n");
+    count(out, "primary", r->primary);
+    count(out, "reflected", r->reflected);
+    count(out, "refracted", r->refracted);
+    count(out, "shadow", r->shadow);
+    count(out, "total reflection", r->total_reflections);
+    count(out, "unseen crossings", r->unseen);
+    strbuf_format(out, "  deepest level    %10u\n", r->deepest);
+    count(out, "nodes tested", r->nodes);
+    count(out, "items tested", r->items);
+    strbuf_cstr(out, "rays dropped\n");
+    count(out, "by max_depth", r->cut_by_depth);
+    count(out, "by min_weight", r->cut_by_weight);
+    strbuf_format(out, "  largest lost     %10.3g by depth, %.3g by weight\n", r->lost_by_depth,
+                  r->lost_by_weight);
+}
+
 void stats_text(const struct stats *s, struct strbuf *out) {
     strbuf_format(out, "device: %s\npicture: %u x %u, %s%u sample%s, in %s precision\n", s->device, s->width,
                   s->height, s->estimate ? "at most " : "", s->samples, s->samples == 1 ? "" : "s",
@@ -80,27 +98,14 @@ void stats_text(const struct stats *s, struct strbuf *out) {
         seconds(out, " of it, device", s->median_device_seconds);
     }
     seconds(out, "encode", s->encode_seconds);
-    seconds(out, "count rays", s->count_seconds);
-    const struct render_rays *r = &s->last.rays;
-    strbuf_cstr(out, "rays\n");
-    count(out, "primary", r->primary);
-    count(out, "reflected", r->reflected);
-    count(out, "refracted", r->refracted);
-    count(out, "shadow", r->shadow);
-    count(out, "total reflection", r->total_reflections);
-    count(out, "unseen crossings", r->unseen);
-    strbuf_format(out, "  deepest level    %10u\n", r->deepest);
-    count(out, "nodes tested", r->nodes);
-    count(out, "items tested", r->items);
-    strbuf_cstr(out, "dropped\n");
-    count(out, "by max_depth", r->cut_by_depth);
-    count(out, "by min_weight", r->cut_by_weight);
-    strbuf_format(out, "  largest lost     %10.3g by depth, %.3g by weight\n", r->lost_by_depth,
-                  r->lost_by_weight);
-    count(out, "zero-area faces", s->dropped);
+    if (s->has_rays) {
+        seconds(out, "count rays", s->count_seconds);
+        put_rays_text(&s->last.rays, out);
+    }
     strbuf_cstr(out, "scene\n");
     count(out, "triangles", s->triangles);
     count(out, "spheres", s->spheres);
+    count(out, "dropped, no area", s->dropped);
     count(out, "tree levels", s->triangle_depth);
     strbuf_format(out, "  dispatches       %10u, %u of them slices, %u bands\n", s->last.dispatches,
                   s->last.slices, s->last.bands);
@@ -213,7 +218,7 @@ static void put_trace(struct json_writer *w, const struct stats *s) {
 
 void stats_json(const struct stats *s, struct strbuf *out) {
     struct json_writer w;
-    json_report_begin(&w, out, JSON_WRITE_DEPTH_MAX, "glint render", 1);
+    json_report_begin(&w, out, JSON_WRITE_DEPTH_MAX, "glint render", 2);
     json_write_text(&w, "device", str_from(s->device));
     json_write_text(&w, "camera", s->camera);
     json_write_integer(&w, "width", s->width);
@@ -222,7 +227,8 @@ void stats_json(const struct stats *s, struct strbuf *out) {
     put_estimate(&w, s);
     json_write_text(&w, "precision", s->is_double ? STR("double") : STR("single"));
     put_times(&w, s);
-    put_rays(&w, &s->last.rays);
+    if (s->has_rays)
+        put_rays(&w, &s->last.rays);
     put_features(&w, s->features);
     json_write_integer(&w, "triangles", s->triangles);
     json_write_integer(&w, "dropped_triangles", s->dropped);

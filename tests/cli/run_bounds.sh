@@ -56,7 +56,7 @@ expect "light that grows keeps a bound at its depth" 0 "" "" amplified
 # Rays are counted apart, after the picture: by another kernel, which takes time of its own.
 counted() {
     "$glint" render "$source/scenes/elements/spheres.glint.yaml" -q --size 20x16 -o plain.pfm &&
-        "$glint" render "$source/scenes/elements/spheres.glint.yaml" -q --size 20x16 --stats=json -o counted.pfm >stats.json &&
+        "$glint" render "$source/scenes/elements/spheres.glint.yaml" -q --size 20x16 --stats=json --count-rays -o counted.pfm >stats.json &&
         cmp plain.pfm counted.pfm && grep -qE '"count_s": *[1-9e0.-]*[1-9]' stats.json
 }
 expect "rays are counted after the picture" 0 "" "" counted

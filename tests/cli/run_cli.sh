@@ -272,16 +272,23 @@ if "$glint" devices >devices.txt 2>/dev/null; then
     expect "they differ" 1 'differ' '' cmp two.left.png two.right.png
     expect "an unknown camera" 2 - "did you mean 'left'" "$glint" render two.yaml --camera lft
     expect "statistics" 0 '' 'device' "$glint" render good.yaml -o out.png --stats
-    expect "statistics as JSON" 0 '"rays"' '' "$glint" render good.yaml -o out.png --stats=json -q
+    expect "statistics as JSON" 0 '"device"' '' "$glint" render good.yaml -o plain.pfm --stats=json -q
+    # They do nothing that nobody asked for: a kernel more, or a picture traced again.
+    cp out.txt plain.json
+    ok "without what takes time" sh -c '! grep -qE "\"rays\"|\"audit\"|\"name\": \"count\"" plain.json'
+    expect "rays are counted where they are asked for" 0 '"rays"' '' "$glint" render good.yaml -o out.png --stats=json --count-rays --audit -q
     # A picture states its own error: in the statistics and in the file, where it was asked to.
     also "the error in the statistics" '"share_at_most": 0' ''
+    expect "as text too" 0 - 'total reflection' "$glint" render good.yaml -o words.png --stats --count-rays
+    expect "rays need statistics" 2 - "only '--stats' shows rays" "$glint" render good.yaml -o words.png --count-rays
     # The trial of `auto` draws with the kernel of the frame.
-    "$glint" render good.yaml -o out.png --stats=json -q >one.json
-    expect "one kernel for trial and frame" 0 '^1$' - sh -c 'sed "/\"name\": \"count\"/q" one.json | grep -o "\"name\": \"pipeline\"" | wc -l'
-    expect "counted after the picture is made" 0 - '' "$glint" render good.yaml -o counted.pfm --stats
+    "$glint" render good.yaml -o one.png --stats=json -q >one.json
+    expect "one kernel for trial and frame" 0 '^1$' - sh -c 'cat one.json | grep -o "\"name\": \"pipeline\"" | wc -l'
+    expect "counted after the picture is made" 0 - '' "$glint" render good.yaml -o counted.pfm --stats --count-rays
     ok "whose bytes are the same" cmp out.pfm counted.pfm
     has_note() { grep -qa "tEXtAccuracy" "$1"; }
     ok "and in the picture" has_note out.png
+    ok "which says nothing of it where nobody asked" sh -c '! grep -qa tEXtAccuracy one.png'
     expect "an audit" 0 - 'glint: at most 0\.09[0-9]+ % of the pixels are off by more than 1/255 \(95 % sure\): 0 of 3[0-9]{3}' "$glint" render good.yaml --size 160x120 -o noted.png --audit
     ok "in the picture too" has_note noted.png
     expect "none without it" 0 - '' "$glint" render good.yaml --size 160x120 -o plain.png

@@ -209,10 +209,10 @@ spheres:
 END
 for device in $devices; do
     [ "$device" = 0 ] || export GLINT_DEVICE="$device"
-    expect "a ray that goes on unseen" 0 '"unseen_crossings": 384,' - "$glint" render counted.yaml --stats=json -q -o counted.png
+    expect "a ray that goes on unseen" 0 '"unseen_crossings": 384,' - "$glint" render counted.yaml --stats=json --count-rays -q -o counted.png
     also "is still the same ray" '"refracted": 384,' -
     also "from the camera too" '"primary": 192,' -
-    expect "the same in words" 0 - 'unseen crossings +384$' "$glint" render counted.yaml --stats -q -o counted.png
+    expect "the same in words" 0 - 'unseen crossings +384$' "$glint" render counted.yaml --stats --count-rays -q -o counted.png
 done
 unset GLINT_DEVICE
 # The floor's 192 shadow rays each pass through the ball and, unseen, through its kernel.
@@ -230,7 +230,7 @@ rectangles: [{corner: [-9, -2, -9], edge_u: [18, 0, 0], edge_v: [0, 0, 18], mate
 END
 for device in $devices; do
     [ "$device" = 0 ] || export GLINT_DEVICE="$device"
-    expect "a shadow ray that goes on unseen" 0 '"unseen_crossings": 384,' - "$glint" render shone.yaml --stats=json -q -o shone.png
+    expect "a shadow ray that goes on unseen" 0 '"unseen_crossings": 384,' - "$glint" render shone.yaml --stats=json --count-rays -q -o shone.png
     also "is still the same shadow ray" '"shadow": 576,' -
 done
 unset GLINT_DEVICE

@@ -97,7 +97,7 @@ if ! "$glint" render scene.yaml -o probe.png -q 2>/dev/null; then
     exit $failed
 fi
 
-json render 0 "$glint" render scene.yaml -o out.png --stats=json -q
+json render 0 "$glint" render scene.yaml -o out.png --stats=json --count-rays --audit -q
 # So far away that single precision is wrong.
 cat >far.yaml <<'S'
 glint: 1
@@ -107,7 +107,7 @@ camera: {position: [0.3, 0.2, 5], fov: 1.0e-6}
 lights: [{position: [3, 4, 5]}]
 spheres: [{center: [0.1, 0, -123456789.3], radius: 0.8}]
 S
-json render_off 0 "$glint" render far.yaml -o far.png --stats=json -q
+json render_off 0 "$glint" render far.yaml -o far.png --stats=json --audit -q
 json render_noise 0 "$glint" render scene.yaml --noise 0.05 -o noise.png --stats=json -q
 json render_unused 0 "$glint" render scene.yaml --set image.error=0.05 --set image.samples=64 --samples 8 -o noise.png --stats=json -q
 by_schema render render.json render_off.json render_noise.json render_unused.json render_reference.json

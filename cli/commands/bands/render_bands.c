@@ -86,11 +86,11 @@ static const struct cli_output *whole_output(const struct render_job *job) {
     return NULL;
 }
 
-// A picture that could be held as a whole, and need not be. What --stats counts is of whole pictures.
+// A picture that could be held as a whole, and need not be.
 static bool saves_memory(const struct render_job *job) {
     const struct part_region *region = &job->part.region;
     return (uint64_t)region->width * region->height > WHOLE_PIXELS && !obstacle(job) && !whole_output(job) &&
-           !job->cli->options.stats && !(job->session.image->error > 0);
+           !(job->session.image->error > 0);
 }
 
 // A picture that is too large to be held needs formats that can be written in rows.
