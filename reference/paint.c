@@ -3,8 +3,8 @@
 //
 // The footprint of a pixel is that of a cone around its ray (Amanatides 1984; Akenine-Moeller, Crassin,
 // Boksansky, Belcour, Panteleev and Wright 2021, "Improved Shader and Texture Level of Detail Using Ray
-// Cones"). How coordinates change across it is found by differences, not by derivatives: so nothing here is
-// what the device does.
+// Cones"). How coordinates change across it is found by what areas change on a triangle, and by differences
+// on a sphere, not by derivatives: so nothing here is what the device does.
 #include "core/angle.h"
 #include "reference/parts.h"
 
@@ -77,16 +77,17 @@ static vec3 corner_of(const struct primitive *p, int k) {
     return (vec3){p->v[k][0], p->v[k][1], p->v[k][2]};
 }
 
-// Weights of a triangle's corners at a point of its plane, by areas.
-static void weights_at(const struct primitive *p, vec3 point, double b[3]) {
+// How the weights of a triangle's corners change along a way in its plane, by the areas that the point and
+// the edge across from each corner span: so no digits are lost far from the origin. Their sum is 0.
+static void weights_along(const struct primitive *p, vec3 way, double by[3]) {
     const vec3 normal =
         vec3_cross(vec3_sub(corner_of(p, 1), corner_of(p, 0)), vec3_sub(corner_of(p, 2), corner_of(p, 0)));
     const double area2 = vec3_dot(normal, normal);
-    for (int k = 0; k < 3; k++) {
-        const vec3 x = vec3_sub(corner_of(p, (k + 1) % 3), point),
-                   y = vec3_sub(corner_of(p, (k + 2) % 3), point);
-        b[k] = vec3_dot(vec3_cross(x, y), normal) / area2;
+    for (int k = 1; k < 3; k++) {
+        const vec3 edge = vec3_sub(corner_of(p, (k + 2) % 3), corner_of(p, (k + 1) % 3));
+        by[k] = vec3_dot(vec3_cross(edge, way), normal) / area2;
     }
+    by[0] = -by[1] - by[2];
 }
 
 static struct place sphere_place(vec3 arm) {
@@ -147,19 +148,13 @@ struct spot {
     double b[3];
 };
 
-// Moved by a part of an axis so small that what curves does not show.
+// On a sphere places are moved by an angle so small that what curves does not show, and large enough that
+// their difference has digits.
 #define STEP 0x1p-12
 
 static struct spot moved(const struct spot *spot, vec3 axis, double by) {
     struct spot to = *spot;
-    if (spot->primitive->is_sphere) {
-        to.arm = vec3_mul(vec3_unit(vec3_add(spot->arm, vec3_mul(axis, by))), vec3_length(spot->arm));
-        return to;
-    }
-    vec3 point = {0, 0, 0};
-    for (int k = 0; k < 3; k++)
-        point = vec3_add(point, vec3_mul(corner_of(spot->primitive, k), spot->b[k]));
-    weights_at(spot->primitive, vec3_add(point, vec3_mul(axis, by)), to.b);
+    to.arm = vec3_mul(vec3_unit(vec3_add(spot->arm, vec3_mul(axis, by))), vec3_length(spot->arm));
     return to;
 }
 
@@ -181,23 +176,32 @@ static double off_axis(struct spot *spot) {
     return NEAREST_AXIS;
 }
 
-// How coordinates change along an axis: by the difference of two places, the shorter way around a sphere,
-// where a pixel covers no longitude twice.
-static struct place change(const struct spot *at, vec3 axis) {
+// By the difference of two places, the shorter way around, where a pixel covers no longitude twice.
+static struct place change_on_sphere(const struct spot *at, vec3 axis) {
     struct spot spot = *at;
-    double step = STEP, less = 1;
-    if (spot.primitive->is_sphere) {
-        const double around = off_axis(&spot), length = vec3_length(axis) / vec3_length(spot.arm);
-        const double all = fabs(spot.s->width) / vec3_length(spot.arm) / (2 * PI);
-        step = STEP * fmin(1, around / length);
-        less = fmin(1, around / all);
-    }
+    const double around = off_axis(&spot), length = vec3_length(axis) / vec3_length(spot.arm);
+    const double all = fabs(spot.s->width) / vec3_length(spot.arm) / (2 * PI);
+    const double step = STEP * around / length, less = fmin(1, around / all);
     const struct spot before = moved(&spot, axis, -step), after = moved(&spot, axis, step);
     const struct place a = place_at(&before), b = place_at(&after);
-    double u = b.u - a.u;
-    if (spot.primitive->is_sphere)
-        u -= floor(u + 0.5);
+    const double u = b.u - a.u - floor(b.u - a.u + 0.5);
     return (struct place){u * less / (2 * step), (b.v - a.v) / (2 * step)};
+}
+
+// How coordinates change along an axis.
+static struct place change(const struct spot *spot, vec3 axis) {
+    struct ir_pair at[3];
+    double by[3];
+    if (!(vec3_length(axis) > 0))
+        return (struct place){0, 0};
+    if (spot->primitive->is_sphere)
+        return change_on_sphere(spot, axis);
+    weights_along(spot->primitive, axis, by);
+    if (spot->body->shape != SCENE_MESH)
+        return surface_place(spot->body, spot->s, by, spot->arm);
+    scene_coordinates(spot->body, spot->s->triangle, at);
+    return (struct place){by[1] * (at[1].u - at[0].u) + by[2] * (at[2].u - at[0].u),
+                          by[1] * (at[1].v - at[0].v) + by[2] * (at[2].v - at[0].v)};
 }
 
 // ---- images
@@ -353,11 +357,16 @@ static double wave(double x, double w) {
 }
 
 static vec3 cell_change(const struct spot *spot, vec3 axis, double size) {
-    const double step = STEP;
+    double by[3];
+    if (!spot->primitive->is_sphere) {
+        weights_along(spot->primitive, axis, by);
+        return checker_cell(spot->body, spot->s, by, spot->arm, size);
+    }
+    if (!(vec3_length(axis) > 0))
+        return axis;
+    const double step = STEP * vec3_length(spot->arm) / vec3_length(axis);
     const struct spot before = moved(spot, axis, -step), after = moved(spot, axis, step);
-    const vec3 a = checker_cell(spot->body, spot->s, before.b, before.arm, size);
-    const vec3 b = checker_cell(spot->body, spot->s, after.b, after.arm, size);
-    return vec3_mul(vec3_sub(b, a), 1 / (2 * step));
+    return vec3_mul(vec3_sub(after.arm, before.arm), 1 / (2 * step * size));
 }
 
 // The share of odd cells in the footprint, which is cut into as many boxes along its longer axis as the

@@ -37,10 +37,10 @@ struct surface {
 bool is_odd(REAL cells) { return cells - 2.0 * floor(cells * 0.5) != 0.0; }
 
 // How a checker's coordinates change along an axis of the footprint.
-vec3 cell_change(body_record map, bool is_half, REAL3 axis, vec2 by, REAL cell) {
-    REAL3 change = is_half ? REAL3(REAL2(by) * map.row_x.xy, 0.0)
+REAL3 cell_change(body_record map, bool is_half, REAL3 axis, REAL2 by, REAL cell) {
+    REAL3 change = is_half ? REAL3(by * map.row_x.xy, 0.0)
                            : REAL3(dot3(map.row_x, axis), dot3(map.row_y, axis), dot3(map.row_z, axis));
-    return vec3(change / cell);
+    return change / cell;
 }
 
 // `shade`: material and flags; `along`: the place on a parallelogram, 0..1 along its edges.
@@ -59,8 +59,8 @@ void read_material(uint shade, uint body, REAL2 along, paint_spot spot, inout su
             bool odd = is_odd(floor(own.x) + floor(own.y) + floor(own.z));
             color = is_checker && odd ? material.second : color;
             if (HAS_FOOTPRINT && painted && is_checker && (load_paint(2u * number).flags & PAINT_SOFT) != 0u) {
-                vec3 a = cell_change(map, is_half, spot.axis_along, spot.along, material.cell);
-                vec3 b = cell_change(map, is_half, spot.axis_across, spot.across, material.cell);
+                REAL3 a = cell_change(map, is_half, spot.axis_along, spot.along, material.cell);
+                REAL3 b = cell_change(map, is_half, spot.axis_across, spot.across, material.cell);
                 float share = odd_share(own, a, b, is_half);
                 color = material.diffuse * (1.0 - share) + material.second * share;
             }
@@ -95,7 +95,7 @@ void read_material(uint shade, uint body, REAL2 along, paint_spot spot, inout su
 
 // The cone's width where it meets a surface, and the axes of the footprint there.
 paint_spot begin_spot(REAL t, REAL3 direction, inout surface s) {
-    paint_spot spot = paint_spot(REAL2(0.0), vec2(0.0), vec2(0.0), REAL3(0.0), REAL3(0.0));
+    paint_spot spot = paint_spot(REAL2(0.0), REAL2(0.0), REAL2(0.0), REAL3(0.0), REAL3(0.0));
     s.bend = 0.0;
     s.width = 0.0;
     if (HAS_FOOTPRINT) {
@@ -107,7 +107,7 @@ paint_spot begin_spot(REAL t, REAL3 direction, inout surface s) {
 
 void triangle_spot(triangle_record triangle, hit_record hit, REAL2 along, inout paint_spot spot) {
     bool is_half = (triangle.shade & TRIANGLE_HALF) != 0u;
-    vec2 a = vec2(0.0), b = vec2(0.0);
+    REAL2 a = REAL2(0.0), b = REAL2(0.0);
     if (HAS_FOOTPRINT) {
         REAL3 edge1 = triangle.v1 - triangle.v0, edge2 = triangle.v2 - triangle.v0;
         a = weights_along(edge1, edge2, spot.axis_along);

@@ -17,7 +17,7 @@ RAY_CONE surface_cone = vec2(0.0);
 // Where a surface is hit in its coordinates, and how these change along the two axes of the footprint.
 struct paint_spot {
     REAL2 at;
-    vec2 along, across;
+    REAL2 along, across;
     REAL3 axis_along, axis_across; // in flat space
 };
 
@@ -35,12 +35,12 @@ void footprint_axes(float width, REAL3 direction, REAL3 facing, out REAL3 along,
 }
 
 // How the weights of a triangle's second and third corner change along an axis.
-vec2 weights_along(REAL3 edge1, REAL3 edge2, REAL3 axis) {
+REAL2 weights_along(REAL3 edge1, REAL3 edge2, REAL3 axis) {
     REAL scale = inverse_power(max(largest3(abs(edge1)), largest3(abs(edge2))));
     REAL3 a = edge1 * scale, b = edge2 * scale, way = axis * scale;
     REAL3 normal = cross3(a, b);
     REAL area2 = dot3(normal, normal);
-    return vec2(float(dot3(cross3(b, normal), way) / area2), float(dot3(cross3(normal, a), way) / area2));
+    return REAL2(dot3(cross3(b, normal), way) / area2, dot3(cross3(normal, a), way) / area2);
 }
 
 // ---- texels
@@ -123,27 +123,27 @@ vec3 image_bilinear(paint_record p, uint number, REAL2 at) {
 // An axis that is `parts` times as long as each of its taps, evenly around the middle: whole ones, and at both ends what is
 // left, half each. So their places and weights change evenly with `parts`.
 struct tap_row {
-    float parts; // 1 .. TAPS_MAX
-    uint count;  // odd
-    float end;   // how much of a tap the first and the last one are
+    REAL parts; // 1 .. TAPS_MAX
+    uint count; // odd
+    REAL end;   // how much of a tap the first and the last one are
 };
 
-tap_row taps_of(float longer, float shorter) {
+tap_row taps_of(REAL longer, REAL shorter) {
     tap_row row;
-    row.parts = longer >= float(TAPS_MAX) * shorter ? float(TAPS_MAX) : longer <= shorter ? 1.0 : longer / shorter;
-    float pairs = ceil((row.parts - 1.0) * 0.5);
+    row.parts = longer >= REAL(TAPS_MAX) * shorter ? REAL(TAPS_MAX) : longer <= shorter ? REAL(1.0) : longer / shorter;
+    REAL pairs = ceil((row.parts - 1.0) * 0.5);
     row.count = 2u * uint(pairs) + 1u;
-    row.end = pairs == 0.0 ? 1.0 : (row.parts - (2.0 * pairs - 1.0)) * 0.5;
+    row.end = pairs == 0.0 ? REAL(1.0) : (row.parts - (2.0 * pairs - 1.0)) * 0.5;
     return row;
 }
 
-float tap_weight(tap_row row, uint i) { return i == 0u || i + 1u == row.count ? row.end : 1.0; }
+REAL tap_weight(tap_row row, uint i) { return i == 0u || i + 1u == row.count ? row.end : REAL(1.0); }
 
 // Its middle, from -1/2 to 1/2 along the axis.
-float tap_place(tap_row row, uint i) {
-    float last = float(row.count / 2u), from_middle = float(i) - last;
-    float inward = 0.5 * (1.0 - row.end);
-    from_middle += i == 0u ? inward : i + 1u == row.count ? -inward : 0.0;
+REAL tap_place(tap_row row, uint i) {
+    REAL last = REAL(row.count / 2u), from_middle = REAL(i) - last;
+    REAL inward = 0.5 * (1.0 - row.end);
+    from_middle += i == 0u ? inward : i + 1u == row.count ? -inward : REAL(0.0);
     return from_middle / row.parts;
 }
 
@@ -161,37 +161,37 @@ float level_of(float size, uint count) {
 
 // The ellipse of two vectors to its rim that are each other's conjugates, in pixels: its axes do not depend on which two.
 struct image_ellipse {
-    vec2 axis; // its longer one
-    float longer, shorter;
+    REAL2 axis; // its longer one
+    REAL longer, shorter;
 };
 
-image_ellipse ellipse_of(vec2 a, vec2 b) {
-    float xx = a.x * a.x + b.x * b.x, yy = a.y * a.y + b.y * b.y, xy = a.x * a.y + b.x * b.y;
-    float part = 0.5 * (xx - yy), root = sqrt(part * part + xy * xy);
-    vec2 way = part >= 0.0 ? vec2(root + part, xy) : vec2(xy, root - part);
-    float size = sqrt(way.x * way.x + way.y * way.y);
+image_ellipse ellipse_of(REAL2 a, REAL2 b) {
+    REAL xx = a.x * a.x + b.x * b.x, yy = a.y * a.y + b.y * b.y, xy = a.x * a.y + b.x * b.y;
+    REAL part = 0.5 * (xx - yy), root = sqrt(part * part + xy * xy);
+    REAL2 way = part >= 0.0 ? REAL2(root + part, xy) : REAL2(xy, root - part);
+    REAL size = sqrt(way.x * way.x + way.y * way.y);
     image_ellipse e;
     e.longer = sqrt(0.5 * (xx + yy) + root);
-    e.axis = size > 0.0 ? way * (e.longer / size) : vec2(e.longer, 0.0);
+    e.axis = size > 0.0 ? way * (e.longer / size) : REAL2(e.longer, 0.0);
     e.shorter = e.longer > 0.0 ? abs(a.x * b.y - a.y * b.x) / e.longer : 0.0;
     return e;
 }
 
-vec3 image_filtered(paint_record p, REAL2 at, vec2 along, vec2 across) {
-    vec2 size = vec2(FETCH(paints, p.levels).yz);
+vec3 image_filtered(paint_record p, REAL2 at, REAL2 along, REAL2 across) {
+    REAL2 size = REAL2(FETCH(paints, p.levels).yz);
     image_ellipse e = ellipse_of(clamp(along * size, -MOST_PIXELS, MOST_PIXELS), clamp(across * size, -MOST_PIXELS, MOST_PIXELS));
     tap_row row = taps_of(e.longer, max(e.shorter, 1.0));
-    float level = level_of(max(e.longer / float(TAPS_MAX), e.shorter), p.level_count);
+    float level = level_of(float(max(e.longer / REAL(TAPS_MAX), e.shorter)), p.level_count);
     uint below = uint(level);
     float share = level - float(below);
-    vec2 axis = e.axis / size;
+    REAL2 axis = e.axis / size;
     vec3 sum = vec3(0.0);
     // The last level's next is itself: lavapipe computes it for all lanes.
     uint above = min(below + 1u, p.level_count - 1u);
     for (uint i = 0u; i < row.count; i++) {
         if (i < row.count) {
-            REAL2 tap = at + REAL2(axis * tap_place(row, i));
-            float weight = tap_weight(row, i);
+            REAL2 tap = at + axis * tap_place(row, i);
+            float weight = float(tap_weight(row, i));
 #ifdef WEBGPU
             vec3 level_sum = vec3(0.0);
             for (uint k = 0u; k < 2u + OPAQUE_ZERO; k++) {
@@ -204,12 +204,12 @@ vec3 image_filtered(paint_record p, REAL2 at, vec2 along, vec2 across) {
 #endif
         }
     }
-    return sum / row.parts;
+    return sum / float(row.parts);
 }
 
-vec2 turned(paint_record p, vec2 v) {
-    vec2 to_u = vec2(p.row_u.xy), to_v = vec2(p.row_v.xy);
-    return vec2(to_u.x * v.x + to_u.y * v.y, to_v.x * v.x + to_v.y * v.y);
+REAL2 turned(paint_record p, REAL2 v) {
+    REAL2 to_u = REAL2(p.row_u.xy), to_v = REAL2(p.row_v.xy);
+    return REAL2(to_u.x * v.x + to_u.y * v.y, to_v.x * v.x + to_v.y * v.y);
 }
 
 vec3 image_color(paint_record p, paint_spot spot) {
@@ -228,37 +228,37 @@ vec3 image_color(paint_record p, paint_spot spot) {
 // ---- checkers
 
 // Mean over a way of width w around x of what is 1 in even cells and -1 in odd ones.
-float wave(REAL x, float w) {
+REAL wave(REAL x, REAL w) {
     REAL cell = floor(x), odd = cell - 2.0 * floor(cell * 0.5);
-    float at = float(x - cell + odd), low = at - 0.5 * w, high = at + 0.5 * w; // even cells begin at 0
-    float a = low - 2.0 * floor(low * 0.5), b = high - 2.0 * floor(high * 0.5);
-    float mean = ((b < 1.0 ? b : 2.0 - b) - (a < 1.0 ? a : 2.0 - a)) / w;
-    return floor(low) == floor(high) ? (odd != 0.0 ? -1.0 : 1.0) : mean;
+    REAL at = x - cell + odd, low = at - 0.5 * w, high = at + 0.5 * w; // even cells begin at 0
+    REAL a = low - 2.0 * floor(low * 0.5), b = high - 2.0 * floor(high * 0.5);
+    REAL mean = ((b < 1.0 ? b : 2.0 - b) - (a < 1.0 ? a : 2.0 - a)) / w;
+    return floor(low) == floor(high) ? (odd != 0.0 ? REAL(-1.0) : REAL(1.0)) : mean;
 }
 
 // The share of odd cells: the footprint is cut into boxes along its longer axis. `is_flat`: there are two coordinates.
-float odd_share(REAL3 at, vec3 along, vec3 across, bool is_flat) {
-    float la = float(sqrt(dot3(REAL3(along), REAL3(along)))), lb = float(sqrt(dot3(REAL3(across), REAL3(across))));
+float odd_share(REAL3 at, REAL3 along, REAL3 across, bool is_flat) {
+    REAL la = sqrt(dot3(along, along)), lb = sqrt(dot3(across, across));
     bool is_across = lb > la;
-    vec3 axis = is_across ? across : along, other = is_across ? along : across;
+    REAL3 axis = is_across ? across : along, other = is_across ? along : across;
     tap_row row = taps_of(max(la, lb), min(la, lb));
-    float sum = 0.0;
+    REAL sum = 0.0;
     for (uint i = 0u; i < row.count; i++) {
         if (i < row.count) {
-            REAL3 tap = at + REAL3(axis * tap_place(row, i));
-            float weight = tap_weight(row, i);
-            vec3 w = abs(axis) * (weight / row.parts) + abs(other);
-            float third = wave(tap.z, w.z);
-            sum += wave(tap.x, w.x) * wave(tap.y, w.y) * (is_flat ? 1.0 : third) * weight;
+            REAL3 tap = at + axis * tap_place(row, i);
+            REAL weight = tap_weight(row, i);
+            REAL3 w = abs(axis) * (weight / row.parts) + abs(other);
+            REAL third = wave(tap.z, w.z);
+            sum += wave(tap.x, w.x) * wave(tap.y, w.y) * (is_flat ? REAL(1.0) : third) * weight;
         }
     }
-    return 0.5 - 0.5 * sum / row.parts;
+    return float(0.5 - 0.5 * sum / row.parts);
 }
 
 // ---- coordinates
 
 // Of a mesh's triangle: COORDINATE_WORDS of its three corners, from the body's first one on.
-void mesh_spot(uint coordinates, uint triangle, REAL b1, REAL b2, vec2 db_along, vec2 db_across, inout paint_spot spot) {
+void mesh_spot(uint coordinates, uint triangle, REAL b1, REAL b2, REAL2 db_along, REAL2 db_across, inout paint_spot spot) {
 #ifdef DOUBLE_PRECISION
     uint at = (coordinates & ~1u) + COORDINATE64_WORDS * triangle;
     uvec4 first = FETCH(paints, at), next = FETCH(paints, at + 1u), last = FETCH(paints, at + 2u);
@@ -273,40 +273,38 @@ void mesh_spot(uint coordinates, uint triangle, REAL b1, REAL b2, vec2 db_along,
     bool exchanged = (coordinates & 1u) != 0u;
     REAL2 t1 = (exchanged ? third : second) - t0, t2 = (exchanged ? second : third) - t0;
     spot.at = t0 + t1 * b1 + t2 * b2;
-    vec2 edge1 = vec2(t1), edge2 = vec2(t2);
-    spot.along = edge1 * db_along.x + edge2 * db_along.y;
-    spot.across = edge1 * db_across.x + edge2 * db_across.y;
+    spot.along = t1 * db_along.x + t2 * db_along.y;
+    spot.across = t1 * db_across.x + t2 * db_across.y;
 }
 
-void half_spot(bool is_second, REAL2 at, vec2 db_along, vec2 db_across, inout paint_spot spot) {
-    vec2 a = db_along, b = db_across;
+void half_spot(bool is_second, REAL2 at, REAL2 db_along, REAL2 db_across, inout paint_spot spot) {
+    REAL2 a = db_along, b = db_across;
     spot.at = at;
-    spot.along = is_second ? vec2(a.x, a.x + a.y) : vec2(a.x + a.y, a.y);
-    spot.across = is_second ? vec2(b.x, b.x + b.y) : vec2(b.x + b.y, b.y);
+    spot.along = is_second ? REAL2(a.x, a.x + a.y) : REAL2(a.x + a.y, a.y);
+    spot.across = is_second ? REAL2(b.x, b.x + b.y) : REAL2(b.x + b.y, b.y);
 }
 
 // Longitude and latitude of a sphere's unit normal, as the background's; v grows to +y.
 struct sphere_map {
-    vec3 o;
-    vec2 outward; // x and z of the meridian, unit
-    float around; // how far from the axis, radius 1
-    float least;  // the same, but not less than where a pixel covers all longitudes
+    REAL3 o;
+    REAL2 outward; // x and z of the meridian, unit
+    REAL around;   // how far from the axis, radius 1
+    REAL least;    // the same, but not less than where a pixel covers all longitudes
 };
 
-vec2 sphere_change(sphere_map map, vec3 way) {
-    float down = (map.outward.x * way.x + map.outward.y * way.z) * map.o.y - way.y * map.around;
-    return vec2((map.outward.x * way.z - map.outward.y * way.x) / map.least * (0.5 / PI), -down * (1.0 / PI));
+REAL2 sphere_change(sphere_map map, REAL3 way) {
+    REAL down = (map.outward.x * way.x + map.outward.y * way.z) * map.o.y - way.y * map.around;
+    return REAL2((map.outward.x * way.z - map.outward.y * way.x) / map.least * (0.5 / REAL_PI), -down * (1.0 / REAL_PI));
 }
 
 void sphere_spot(REAL3 outward, REAL radius, float width, inout paint_spot spot) {
     REAL around = sqrt(outward.x * outward.x + outward.z * outward.z);
     spot.at = REAL2(0.5 + arctan2(outward.z, outward.x) * (0.5 / REAL_PI), 1.0 - arctan2(around, outward.y) * (1.0 / REAL_PI));
-    float size = float(radius);
-    sphere_map map = sphere_map(vec3(outward), vec2(1.0, 0.0), float(around), 0.0);
-    map.least = max(max(map.around, abs(width) / size * (0.5 / PI)), 1e-12);
+    sphere_map map = sphere_map(outward, REAL2(1.0, 0.0), around, 0.0);
+    map.least = max(max(map.around, abs(width) / radius * (0.5 / REAL_PI)), 1e-12);
     map.outward = map.around > 0.0 ? map.o.xz / map.around : map.outward;
-    spot.along = sphere_change(map, vec3(spot.axis_along / radius));
-    spot.across = sphere_change(map, vec3(spot.axis_across / radius));
+    spot.along = sphere_change(map, spot.axis_along / radius);
+    spot.across = sphere_change(map, spot.axis_across / radius);
 }
 
 // ---- cones

@@ -169,6 +169,68 @@ static void check_far(struct analytic *a) {
     }
 }
 
+// ---- where numbers are large, the device in double precision and the reference agree
+
+struct pair {
+    const char *name, *scene, *camera;
+};
+
+#define SIZE(size) "material: {diffuse_color: {checker: {colors: [0, 1], size: " size ", antialias: true}}}"
+#define IMAGE      "material: {diffuse_color: {image: {file: mixed.png, repeat: 3}}}"
+#define NARROW     ", projection: orthographic, size: "
+
+static const struct pair pairs[] = {
+    {"edges of a checker from near by",
+     "rectangles:\n  - {corner: [-8, -8, -4], edge_u: [16, 0, 0], edge_v: [0, 16, -8], " SIZE("0.5") "}\n",
+     "camera: {look_at: [0, 0, -4]" NARROW "0.001}"},
+    {"the same at a million",
+     "rectangles:\n  - {corner: [999992, -8, -4], edge_u: [16, 0, 0], edge_v: [0, 16, -8], " SIZE(
+         "0.5") "}\n",
+     "camera: {position: [1000000, 0, 0], look_at: [1000000, 0, -4]" NARROW "0.001}"},
+    {"cells of a sphere", "spheres:\n  - {center: [0, 0, -4], radius: 2, " SIZE("0.5") "}\n",
+     "camera: {look_at: [0, 0, -4]" NARROW "0.01}"},
+    {"cells of a sphere at a billion",
+     "spheres:\n  - {center: [1000000000, 0, -4], radius: 2, " SIZE("0.5") "}\n",
+     "camera: {position: [1000000000, 0, 0], look_at: [1000000000, 0, -4]" NARROW "0.01}"},
+    {"an image on a long triangle", "models:\n  - {mesh: long.obj, " IMAGE "}\n", "camera: {}"},
+    {"cells of a long triangle", "models:\n  - {mesh: long.obj, " SIZE("0.05") "}\n", "camera: {}"},
+};
+
+static bool write_long(struct analytic *a) {
+    static const char text[] = "v -100000 -8 -4\nv 100000 -7 -4.1\nv 0.1 9 -4\n"
+                               "vt 0 0\nvt 28571.4 28570.9\nvt 14285.7 14084.5\nf 1/1 2/2 3/3\n";
+    return analytic_write(a, "long.obj", text, sizeof text - 1);
+}
+
+static void check_pair(struct analytic *a, const struct pair *p) {
+    char scene[512];
+    struct image device, reference;
+    double worst = 0;
+    snprintf(scene, sizeof scene, "%s%s", lamp, p->scene);
+    const struct analytic_picture picture = {.name = p->name, .scene = scene, .camera_text = p->camera};
+    if (!analytic_take(a, &picture, &device))
+        return;
+    a->kit.by_reference = true;
+    if (analytic_take(a, &picture, &reference)) {
+        analytic_expect(a, picture_variety(&reference) > 9, p->name, "the picture shows nothing");
+        for (size_t at = 0; at < (size_t)3 * device.width * device.height; at++)
+            worst = fmax(worst, fabs((double)device.rgb[at] - (double)reference.rgb[at]));
+        image_finish(&reference);
+    }
+    a->kit.by_reference = false;
+    image_finish(&device);
+    printf("%-32s differs by %.2g\n", p->name, worst);
+    analytic_expect(a, worst <= 1e-6, p->name, "the reference shows something else");
+}
+
+static void check_pairs(struct analytic *a) {
+    if (a->kit.by_reference)
+        return;
+    analytic_expect(a, write_long(a), "long.obj", "it could not be written");
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
+        check_pair(a, &pairs[i]);
+}
+
 // ---- a footprint that changes by a millionth changes nothing
 
 static bool take_turned(struct analytic *a, double repeat, double aspect, double by, struct image *image) {
@@ -215,6 +277,7 @@ int main(int argc, char **argv) {
             check_mean(&a, &noises[i], is_srgb, noises[i].depth == 8 ? 1e-4 : 1e-6);
     }
     check_far(&a);
+    check_pairs(&a);
     check_even(&a);
     return analytic_close(&a);
 }
