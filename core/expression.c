@@ -212,6 +212,8 @@ void expression_inexact_names(unsigned used, struct strbuf *out) {
             strbuf_format(out, "%s%s", between, i < FUNCTIONS ? functions[i].name : "^");
             between = ", ";
         }
+    if (used & EXPRESSION_INEXACT_HEX)
+        strbuf_format(out, "%s#rrggbb", between);
 }
 
 static bool count_is_good(const struct function *f, int count) {

@@ -43,7 +43,8 @@ bool expression_fill(str text, const struct expression_at *at, struct strbuf *ou
 // All names that an expression may use: "frame, time, pi, ... sin(x), ...".
 void expression_names(struct strbuf *out);
 // What a text with expressions uses whose last bit depends on the C library, so that a frame need not be the
-// same number everywhere: a set, 0 if nothing, and its names, "sin, ^".
+// same number everywhere: a set, 0 if nothing, and its names, "sin, ^, #rrggbb".
+#define EXPRESSION_INEXACT_HEX (1u << 31) // a colour as #rrggbb that is decoded beside an expression
 unsigned expression_inexact(str text);
 void expression_inexact_names(unsigned used, struct strbuf *out);
 

@@ -234,7 +234,7 @@ void animate_scene(struct loader *loader, struct ir_scene *scene) {
     if (is_good && animation->tracks.count) {
         loader->output->origin.motion.frames = animation->frames;
         loader->output->origin.motion.rate = animation->rate;
-        loader->output->origin.motion.inexact = inexact_of(animation);
+        loader->output->origin.motion.inexact |= inexact_of(animation);
     }
     if (is_good && animation->tracks.count && (!has_frame || is_frame_of_file(loader, animation))) {
         find_elements(&motion);

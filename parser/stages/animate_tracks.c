@@ -179,7 +179,10 @@ static bool compile(const struct motion *motion, const struct moving *m, str tex
     str rest = text;
     *out = (struct moving_text){0};
     if (m->color && read_hex(text, out->constant)) {
-        for (int i = 0; i < 3 && motion->scene->image.transfer == IR_TRANSFER_SRGB; i++)
+        if (motion->scene->image.transfer != IR_TRANSFER_SRGB)
+            return true;
+        motion->loader->output->origin.motion.inexact |= EXPRESSION_INEXACT_HEX; // by pow
+        for (int i = 0; i < 3; i++)
             out->constant[i] = srgb_decode(out->constant[i]);
         return true;
     }
