@@ -6,6 +6,7 @@ call='(^|[^A-Za-z0-9_.>])'
 anywhere='strcpy|strcat|stpcpy|sprintf|vsprintf|gets|atoi|atol|atoll|atof|strtok|setlocale|tmpnam|mktemp'
 ends='exit|_exit|_Exit|quick_exit|abort'
 prints='printf|vprintf|puts|putchar|perror'
+outputs='output_open|output_whole|output_part'
 opens='fopen|freopen|open|openat|creat|opendir|mmap|realpath'
 # Where memory ends, arena_guarded is the one way out; beside it only files whose library reports its errors by
 # a jump may catch one. No more than six files in all.
@@ -30,4 +31,6 @@ ours "^(${rooms%|})/[^/]*\.[ch]\$" | grep -vE '(^|[/_])main\.c$' | code >"$code"
         sed 's/$/   <- core\/heap.h is the one door to the heap/' || true
     grep -E "$call($opens)[ ]*\(" "$code" | grep -vE '^files/' |
         sed 's/$/   <- the room files is the one door to the file system/' || true
+    ours '^cli/commands/' | grep '\.[ch]$' | code | grep -E "$call($outputs)[ ]*\(" |
+        sed 's/$/   <- cli\/made.h opens what commands write/' || true
 } | verdict
