@@ -45,13 +45,13 @@ made() {
         esac
         files >../before.txt
         case $kind in pipe) why='it is not a regular file' ;; *) why='it leads out of the folder' ;; esac
-        expect "$kind $target: $*" 5 - "^$target:1:1: error: is not written: $why" timeout 60 "$@"
+        expect "$kind $target: $*" 5 - "^$target:1:1: error: is not written: $why" timeout 20 "$@"
         outside "$kind $target: $*"
         files >../after.txt
         same "$kind $target: nothing is written" ../before.txt ../after.txt
         rm "$target"
     done
-    expect "free $target: $*" 0 '' - timeout 60 "$@"
+    expect "free $target: $*" 0 '' - timeout 20 "$@"
     [ -f "$target" ] && pass "free $target: is a file" || fail "free $target: is not there"
     outside "free $target: $*"
     files >../after.txt

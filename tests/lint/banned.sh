@@ -23,7 +23,7 @@ ours "^(${rooms%|})/[^/]*\.[ch]\$" | grep -vE '(^|[/_])main\.c$' | code >"$code"
     ours '\.[ch]$' | code | grep -E "$call($anywhere)[ ]*\(" | sed 's/$/   <- a banned call/' || true
     ours '\.[ch]$' | code | grep -E "$call$jumps[ ]*\(" | grep -vE "^($may_jump):" |
         sed 's/$/   <- arena_guarded is the one way out of memory/' || true
-    grep -E "$call($ends)[ ]*\(" "$code" | grep -v '^core/arena\.c:[0-9]*:.*abort' |
+    grep -E "$call($ends)[ ]*\(" "$code" | grep -vE '^core/arena\.c:[0-9]*:.*abort|^files/spawn\.c:[0-9]*:.*_exit' |
         sed 's/$/   <- a library does not end the program/' || true
     grep -E "$call($prints)[ ]*\(|$call(stdout|stderr)([^A-Za-z0-9_]|\$)" "$code" |
         grep -v '^files/output\.[ch]:' | sed 's/$/   <- a library does not print/' || true
