@@ -50,6 +50,7 @@ struct cli {
     str named_in; // the folder of a file that names what is read: nothing outside is; empty: there is none
     bool names_scene;           // it names the scene, too
     uint32_t named_asset_paths; // how many of the last of options.asset_paths it names
+    struct cli_made *made;      // names of outputs that were judged (made.h); NULL: none yet
 };
 
 struct cli_command {
@@ -107,9 +108,6 @@ const char *cli_default_picture(struct cli *cli, const char *scene);
 int cli_print(struct cli *cli, str text);
 // Writes a whole file (or "-"); CLI_OK or CLI_FILE with an error printed.
 int cli_write(struct cli *cli, const char *path, str bytes);
-// Whether an output whose name is the scene's, and that the user has not named, stays below the current
-// folder: a link of a stranger may lead anywhere. CLI_REFUSED with an error printed if it does not.
-int cli_judge_default(struct cli *cli, const char *path);
 // Reports that, and returns its exit code: CLI_FILE, or CLI_PIPE for a standard output that nobody reads.
 int cli_not_written(struct cli *cli, const char *path, int error);
 // The same as cli_write for what was made in memory, called `what` in messages: if memory ran out, CLI_FILE

@@ -1,5 +1,6 @@
 // Diagnostics on standard error, data on standard output, and the exit codes that follow.
 #include "cli/cli.h"
+#include "cli/made.h"
 
 #include "cli/progress.h"
 #include "diag/diag_text.h"
@@ -11,7 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 bool cli_is_stream(const struct cli *cli, const char *path) {
@@ -189,7 +189,7 @@ int cli_not_written(struct cli *cli, const char *path, int error) {
 }
 
 int cli_write(struct cli *cli, const char *path, str bytes) {
-    const int error = output_whole(path, bytes.ptr, bytes.len);
+    const int error = cli_put_output(cli, path, bytes);
     return error ? cli_not_written(cli, path, error) : CLI_OK;
 }
 
@@ -213,7 +213,7 @@ int cli_try_output(struct cli *cli, const char *path) {
     struct output probe;
     if (!path || strcmp(path, "-") == 0)
         return CLI_OK;
-    if (output_open(&probe, path)) {
+    if (cli_open_output(cli, &probe, path)) {
         output_abandon(&probe);
         return CLI_OK;
     }
@@ -230,21 +230,6 @@ int cli_write_made(struct cli *cli, const char *path, const struct strbuf *made,
 
 int cli_print(struct cli *cli, str text) {
     return cli_write(cli, "-", text);
-}
-
-int cli_judge_default(struct cli *cli, const char *path) {
-    struct files files;
-    struct stat there;
-    str root;
-    files_init(&files, &cli->arena);
-    const bool leads_nowhere = lstat(path, &there) == 0 && stat(path, &there) != 0;
-    if (files_add_root(&files, STR(".")) == FILE_OK &&
-        (leads_nowhere || files_place(&files, str_from(path), &root) == FILE_OUTSIDE)) {
-        cli_error(cli, DIAG_FILE_OUTSIDE, path, "if that is meant, name the file with -o",
-                  "is not written: it leads out of the folder");
-        return CLI_REFUSED;
-    }
-    return CLI_OK;
 }
 
 const char *cli_default_picture(struct cli *cli, const char *scene) {

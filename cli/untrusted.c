@@ -4,6 +4,7 @@
 #include "cli/device.h"
 #include "cli/memory.h"
 #include "files/files_walk.h"
+#include "files/git.h"
 #include "files/sandbox.h"
 #include "files/work_tree.h"
 
@@ -141,6 +142,12 @@ static void allow_driver(struct allowed *a) {
 }
 
 // ---- all of it
+
+void cli_distrust_git(const struct cli *cli) {
+    const struct cli_options *o = &cli->options;
+    if (o->untrusted_seconds)
+        git_distrust(o->untrusted_seconds, (uint64_t)o->untrusted_megabytes << 20);
+}
 
 int cli_enter_untrusted(struct cli *cli, const struct cli_command *command, const char *searched) {
     struct allowed a = {.cli = cli};

@@ -10,6 +10,8 @@
 // Does nothing without the option. `searched`: a folder that no operand names; NULL: none. CLI_OK, or an exit
 // code with the mistake in cli->sink.
 int cli_enter_untrusted(struct cli *cli, const struct cli_command *command, const char *searched);
+// The same for what is asked of git before: its repository is trusted no more than its files.
+void cli_distrust_git(const struct cli *cli);
 // Below which files may be named by what is in a folder: the folder of the nearest .glintrc.yaml, else the
 // work tree of git, else the folder itself.
 void cli_add_root(struct files *files, str folder);

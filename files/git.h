@@ -17,6 +17,11 @@ struct git_changes {
     str why; // where it failed
 };
 
+// From now on nobody trusts the repository: git starts no program that its settings or attributes name (a
+// monitor, a hook, a filter, a difference of its own, another transport), writes nothing, and is held to so
+// much time and memory. What git cannot say without them counts as changed: what a filter of the repository
+// would have told to be the same, and submodules.
+void git_distrust(unsigned seconds, uint64_t memory_bytes);
 // All that differs between the commit that `revision` names and the files as they are now. HEAD of a
 // repository without a commit is empty. false: changes->why.
 bool git_changed_since(struct git_changes *changes, struct arena *arena, str revision);

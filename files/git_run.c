@@ -28,9 +28,12 @@ static void read_both(struct git_answer *answer, const int *ends) {
     }
 }
 
-static void run_between(struct git_answer *answer, const char *const *words, const int *out, const int *err) {
+static void run_between(struct git_answer *answer, const char *const *words, const struct sandbox *limits,
+                        const int *out, const int *err) {
     pid_t child = 0;
-    answer->error = spawn(&child, words, &(struct spawn_streams){-1, out[1], err[1]}, false);
+    const struct spawn_streams streams = {-1, out[1], err[1]};
+    answer->error =
+        limits ? spawn_reader(&child, words, &streams, limits) : spawn(&child, words, &streams, false);
     close(out[1]);
     close(err[1]);
     if (answer->error)
@@ -46,7 +49,7 @@ static void run_between(struct git_answer *answer, const char *const *words, con
     answer->status = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
 
-void git_run(struct git_answer *answer, const char *const *words) {
+void git_run(struct git_answer *answer, const char *const *words, const struct sandbox *limits) {
     int out[2], err[2];
     if (pipe(out) != 0) {
         answer->error = errno;
@@ -63,7 +66,7 @@ void git_run(struct git_answer *answer, const char *const *words) {
         fcntl(out[i], F_SETFD, FD_CLOEXEC);
         fcntl(err[i], F_SETFD, FD_CLOEXEC);
     }
-    run_between(answer, words, out, err);
+    run_between(answer, words, limits, out, err);
     close(out[0]);
     close(err[0]);
 }

@@ -16,7 +16,9 @@ struct git_answer {
     int status;            // its own
 };
 
-// `words`, the first of which is "git", end with NULL.
-void git_run(struct git_answer *answer, const char *const *words);
+struct sandbox;
+// `words`, the first of which is "git", end with NULL. `limits`: it may only read (sandbox_only_read), as far
+// as the system can see to it; NULL: it may what this program may.
+void git_run(struct git_answer *answer, const char *const *words, const struct sandbox *limits);
 
 #endif

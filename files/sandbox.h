@@ -29,6 +29,10 @@ int sandbox_landlock(void);
 // Returns 0, or the errno of what a system that has Landlock did not do.
 int sandbox_enter(const struct sandbox *sandbox);
 bool sandbox_entered(void);
+// For a process that is about to become another program, which is to read only: it starts no process, writes
+// no file and makes no connection by TCP, as far as the system can refuse these, and takes so much time and
+// memory. Not for this program, whose threads would be none the wiser.
+void sandbox_only_read(const struct sandbox *limits);
 // Notes that something was refused, once the sandbox is entered; and whether that was so.
 void sandbox_refuse(void);
 bool sandbox_refused(void);

@@ -3,8 +3,10 @@
 #include "files/sandbox.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 extern char **environ;
@@ -54,5 +56,51 @@ int spawn(pid_t *child, const char *const *words, const struct spawn_streams *st
     if (error)
         *child = 0;
     posix_spawn_file_actions_destroy(&actions);
+    return error;
+}
+
+// The child of a fork, to its end: another program, or none, and why.
+static void become(const char *const *words, const struct spawn_streams *streams,
+                   const struct sandbox *limits, int tell) {
+    const int from[] = {streams->in, streams->out, streams->err};
+    const int to[] = {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO};
+    bool good = true;
+    for (int i = 0; i < 3; i++)
+        good = good && (from[i] < 0 || dup2(from[i], to[i]) >= 0);
+    signal(SIGPIPE, SIG_DFL);
+    signal(SIGXFSZ, SIG_DFL);
+    if (good) {
+        sandbox_only_read(limits);
+        execvp(words[0], (char *const *)words);
+    }
+    const int error = errno;
+    if (write(tell, &error, sizeof error) < 0)
+        _exit(126);
+    _exit(127);
+}
+
+int spawn_reader(pid_t *child, const char *const *words, const struct spawn_streams *streams,
+                 const struct sandbox *limits) {
+    int ends[2], error = 0;
+    *child = 0;
+    if (pipe(ends) != 0)
+        return errno;
+    fcntl(ends[0], F_SETFD, FD_CLOEXEC);
+    fcntl(ends[1], F_SETFD, FD_CLOEXEC);
+    const pid_t made = fork();
+    if (made == 0)
+        become(words, streams, limits, ends[1]);
+    if (made < 0)
+        error = errno;
+    close(ends[1]);
+    ssize_t count = 0;
+    // Nothing comes where the child has become the program.
+    do
+        count = made < 0 ? 0 : read(ends[0], &error, sizeof error);
+    while (count < 0 && errno == EINTR);
+    close(ends[0]);
+    if (made > 0 && error)
+        waitpid(made, NULL, 0);
+    *child = error ? 0 : made;
     return error;
 }

@@ -5,6 +5,8 @@
 #include <stdbool.h>
 #include <sys/types.h>
 
+struct sandbox;
+
 // What the program has as standard input, output and error; -1: what this one has.
 struct spawn_streams {
     int in, out, err;
@@ -13,5 +15,8 @@ struct spawn_streams {
 // `words`, the first of which is the program's name, end with NULL. `own_group`: Ctrl-C does not reach it.
 // Returns 0, or errno; *child, the caller's to wait for, is 0 then.
 int spawn(pid_t *child, const char *const *words, const struct spawn_streams *streams, bool own_group);
+// The same for a program that is to read only (sandbox.h: sandbox_only_read). While one thread runs.
+int spawn_reader(pid_t *child, const char *const *words, const struct spawn_streams *streams,
+                 const struct sandbox *limits);
 
 #endif

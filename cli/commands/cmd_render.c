@@ -3,6 +3,7 @@
 #include "cli/commands/render_job.h"
 #include "cli/commands/study.h"
 #include "cli/device.h"
+#include "cli/made.h"
 #include "core/clock.h"
 #include "core/quantile.h"
 #include "core/timeline.h"
@@ -40,8 +41,11 @@ static int judge_load(struct render_job *job) {
     if (interrupt_signal())
         return render_interrupted(job);
     int status = CLI_OK;
-    for (uint32_t i = 0; i < job->output_count && status == CLI_OK; i++)
-        status = cli_try_output(job->cli, job->outputs[i].path);
+    for (uint32_t i = 0; i < job->output_count && status == CLI_OK; i++) {
+        status = cli_judge_made(job->cli, render_typed(&job->outputs[i]), job->outputs[i].path);
+        if (status == CLI_OK)
+            status = cli_try_output(job->cli, job->outputs[i].path);
+    }
     return status;
 }
 
@@ -234,6 +238,21 @@ static int leave_done(struct render_job *job, uint32_t *first, uint32_t end) {
     return *first == end ? cli_report(job->cli, &job->session, !job->cli->options.quiet) : CLI_OK;
 }
 
+// All names that are made of the outputs', through these cameras.
+static int judge_made(struct render_job *job, uint32_t first, uint32_t end) {
+    int status = CLI_OK;
+    for (uint32_t k = first; k < end && status == CLI_OK && !job->kept; k++) {
+        for (uint32_t i = 0; i < job->output_count && status == CLI_OK; i++)
+            status = cli_judge_made(job->cli, render_typed(&job->outputs[i]),
+                                    render_output_of(job, &job->outputs[i], k));
+        if (status == CLI_OK)
+            status = render_judge_partial(job, k);
+        if (status == CLI_OK)
+            status = render_judge_aov_names(job, k);
+    }
+    return status;
+}
+
 static int render_cameras(struct render_job *job) {
     const struct ir_cameras *cameras = &job->session.scene->cameras;
     const bool exact = cli_device_is_reference(job->cli);
@@ -260,7 +279,7 @@ static int render_cameras(struct render_job *job) {
     if (fits != CLI_OK)
         return fits;
     uint32_t end = job->all_cameras ? cameras->count : first + 1;
-    fits = render_judge_defaults(job, first, end);
+    fits = judge_made(job, first, end);
     if (fits == CLI_OK)
         fits = leave_done(job, &first, end);
     if (fits != CLI_OK || first == end)

@@ -1,9 +1,9 @@
 // glint schema: prints what is made from the language's table, or links scene files to it.
 #include "cli/commands/commands.h"
 
+#include "cli/made.h"
 #include "core/nearest.h"
 #include "edit/schema_line.h"
-#include "files/output.h"
 #include "grammar/emit/emit.h"
 
 #include <string.h>
@@ -70,9 +70,9 @@ static int install(struct cli *cli, const char *path) {
         const char *address = cli->options.schema;
         if (!address) {
             address = is_xml ? "glint.rng" : "glint.schema.json";
-            str folder = path_folder(str_from(path));
-            status =
-                write_schema(cli, arena_format(&cli->arena, "%.*s/%s", STR_ARG(folder), address).ptr, is_xml);
+            const char *beside = path_join(&cli->arena, path_folder(str_from(path)), str_from(address)).ptr;
+            status = cli_judge_made(cli, path, beside);
+            status = status == CLI_OK ? write_schema(cli, beside, is_xml) : status;
         }
         bool changed = status == CLI_OK && schema_line_put(&session, str_from(address), &text);
         if (text.failed)

@@ -329,7 +329,9 @@ static int run_command(struct cli *cli, const struct cli_command *command) {
         return CLI_USAGE;
     int status = cli_take_stream(cli, command);
     cli->command = command;
-    if (status == CLI_OK && !cli->options.changed) // that asks git first
+    if (cli->options.changed) // that asks git first
+        cli_distrust_git(cli);
+    else if (status == CLI_OK)
         status = cli_enter_untrusted(cli, command, NULL);
     if (status != CLI_OK || command->run)
         return status == CLI_OK ? command->run(cli) : status;

@@ -52,8 +52,8 @@ struct render_job {
 
 // Where a camera's picture goes: the path of one of the outputs.
 const char *render_output_of(struct render_job *job, const struct cli_output *output, uint32_t camera);
-// Whether names that the user did not give stay in the current folder, through these cameras. An exit code.
-int render_judge_defaults(struct render_job *job, uint32_t first, uint32_t end);
+// What the user typed for an output; "": nothing.
+const char *render_typed(const struct cli_output *output);
 // A path without its ending.
 str render_stem_of(str path);
 // Reads the outputs of the command line into the job; CLI_OK, or CLI_USAGE with the mistake reported.
@@ -99,6 +99,8 @@ int render_judge_aovs(struct render_job *job);
 // After the frame: makes all of it by the tracer that made the picture, the reference if `exact` is not NULL,
 // as layers of the job's image where an output is OpenEXR.
 int render_make_aovs(struct render_job *job, struct exact *exact);
+// Whether the files beside the picture may be written.
+int render_judge_aov_names(struct render_job *job, uint32_t camera);
 // After the pictures: files beside the OpenEXR picture, or the first output that is a file.
 int render_write_aovs(struct render_job *job, uint32_t camera);
 void render_drop_aovs(struct render_job *job);
@@ -133,6 +135,8 @@ int render_judge_bands(struct render_job *job);
 int render_plan_bands(struct render_job *job);
 // The part of the picture that a shot begins with; width 0: all of it.
 struct shot_region render_first_region(struct render_job *job);
+// Whether what --partial writes may be written. An exit code.
+int render_judge_partial(struct render_job *job, uint32_t camera);
 // All bands of a camera's picture, and its files. An exit code: CLI_STOPPED if a signal came.
 int render_in_bands(struct render_job *job, uint32_t camera);
 // cli/commands/pictures/done.c, --skip-done: whether the outputs can say that they are done; as

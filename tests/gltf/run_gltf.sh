@@ -44,6 +44,15 @@ expect 'nothing is overwritten' 3 - 'scene_image_0.png:1:1: error: the file exis
 also 'and it says how to' - '--force'
 expect 'nothing is written then' 3 - 'error: the file exists' "$glint" import sample.glb -o scene.xml
 [ ! -e scene.xml ] && pass 'no scene beside what exists' || fail 'scene.xml was written'
+mv scene_image_0.png kept.png
+cp scene.yaml kept.yaml
+mkdir -p within && mv scene.yaml within/ && ln -s ../outside.png within/scene_image_0.png
+expect 'an image is not written through a link that leads out' 5 - 'scene_image_0.png:1:1: error: is not written: it leads out' \
+    "$glint" import sample.glb -o within/scene.yaml --force -q
+[ ! -e outside.png ] && cmp -s kept.yaml within/scene.yaml && pass 'and nothing is' || fail 'something was written'
+rm -r within
+mv kept.yaml scene.yaml
+mv kept.png scene_image_0.png
 expect 'with --force it is' 0 - 'wrote scene.yaml' "$glint" import sample.glb -o scene.yaml --force
 expect 'to standard output' 0 '^glint: 1' 'spot light' "$glint" import sample.glb -o -
 mkdir below

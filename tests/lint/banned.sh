@@ -6,6 +6,7 @@ call='(^|[^A-Za-z0-9_.>])'
 anywhere='strcpy|strcat|stpcpy|sprintf|vsprintf|gets|atoi|atol|atoll|atof|strtok|setlocale|tmpnam|mktemp'
 ends='exit|_exit|_Exit|quick_exit|abort'
 prints='printf|vprintf|puts|putchar|perror'
+outputs='output_open|output_whole|output_part'
 opens='fopen|freopen|open|openat|creat|opendir|mmap|realpath'
 # Where memory ends, arena_guarded is the one way out; beside it only files whose library reports its errors by
 # a jump may catch one. No more than six files in all.
@@ -22,7 +23,7 @@ ours "^(${rooms%|})/[^/]*\.[ch]\$" | grep -vE '(^|[/_])main\.c$' | code >"$code"
     ours '\.[ch]$' | code | grep -E "$call($anywhere)[ ]*\(" | sed 's/$/   <- a banned call/' || true
     ours '\.[ch]$' | code | grep -E "$call$jumps[ ]*\(" | grep -vE "^($may_jump):" |
         sed 's/$/   <- arena_guarded is the one way out of memory/' || true
-    grep -E "$call($ends)[ ]*\(" "$code" | grep -v '^core/arena\.c:[0-9]*:.*abort' |
+    grep -E "$call($ends)[ ]*\(" "$code" | grep -vE '^core/arena\.c:[0-9]*:.*abort|^files/spawn\.c:[0-9]*:.*_exit' |
         sed 's/$/   <- a library does not end the program/' || true
     grep -E "$call($prints)[ ]*\(|$call(stdout|stderr)([^A-Za-z0-9_]|\$)" "$code" |
         grep -v '^files/output\.[ch]:' | sed 's/$/   <- a library does not print/' || true
@@ -30,4 +31,6 @@ ours "^(${rooms%|})/[^/]*\.[ch]\$" | grep -vE '(^|[/_])main\.c$' | code >"$code"
         sed 's/$/   <- core\/heap.h is the one door to the heap/' || true
     grep -E "$call($opens)[ ]*\(" "$code" | grep -vE '^files/' |
         sed 's/$/   <- the room files is the one door to the file system/' || true
+    ours '^cli/commands/' | grep '\.[ch]$' | code | grep -E "$call($outputs)[ ]*\(" |
+        sed 's/$/   <- cli\/made.h opens what commands write/' || true
 } | verdict

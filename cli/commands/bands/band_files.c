@@ -2,6 +2,7 @@
 #include "cli/commands/bands/bands_run.h"
 #include "cli/commands/pictures/provenance.h"
 #include "cli/commands/pictures/row_files.h"
+#include "cli/made.h"
 #include "core/clock.h"
 
 #include "grammar/ir.h"
@@ -96,6 +97,24 @@ int bands_write(struct bands_run *run) {
     return status;
 }
 
+// NULL: this output has none.
+static const char *partial_of(struct render_job *job, const struct cli_output *output, uint32_t camera) {
+    const str path = str_from(render_output_of(job, output, camera)), stem = render_stem_of(path);
+    if (output->is_part || !is_streamed(output) || stem.len == 0)
+        return NULL;
+    return arena_format(&job->cli->arena, "%.*s.partial%s", STR_ARG(stem), path.ptr + stem.len).ptr;
+}
+
+int render_judge_partial(struct render_job *job, uint32_t camera) {
+    int status = CLI_OK;
+    for (uint32_t i = 0; i < job->output_count && status == CLI_OK && job->cli->options.part.partial; i++) {
+        const char *partial = partial_of(job, &job->outputs[i], camera);
+        if (partial)
+            status = cli_judge_made(job->cli, render_typed(&job->outputs[i]), partial);
+    }
+    return status;
+}
+
 int bands_write_partial(struct bands_run *run) {
     struct render_job *job = run->job;
     const struct bands *bands = &run->bands;
@@ -107,11 +126,9 @@ int bands_write_partial(struct bands_run *run) {
     const struct image_texts texts = {&text, 1};
     for (uint32_t i = 0; i < job->output_count && status == CLI_OK; i++) {
         const struct cli_output *output = &job->outputs[i];
-        const str path = str_from(render_output_of(job, output, run->camera)), stem = render_stem_of(path);
-        if (output->is_part || !is_streamed(output) || stem.len == 0)
+        const char *partial = partial_of(job, output, run->camera);
+        if (!partial)
             continue;
-        const char *partial =
-            arena_format(&job->cli->arena, "%.*s.partial%s", STR_ARG(stem), path.ptr + stem.len).ptr;
         status = write_file(run, output, partial, &texts);
         if (status == CLI_OK && !job->cli->options.quiet)
             fprintf(stderr, "glint: wrote %s, %u of %u bands\n", partial, bands->done_count, bands->count);

@@ -2,7 +2,7 @@
 #include "cli/commands/batch/batch_run.h"
 #include "cli/commands/parts/part_made.h"
 #include "cli/commands/pictures/provenance.h"
-#include "files/output.h"
+#include "cli/made.h"
 
 #include <string.h>
 
@@ -32,7 +32,7 @@ static void encode(void *context) {
             image_encode(&made->image, format, made->display, &made->files[i]);
         // The disk takes milliseconds a file: they are not the next picture's.
         const str file = strbuf_view(&made->files[i]);
-        made->errors[i] = made->files[i].failed ? 0 : output_whole(made->job->paths[i], file.ptr, file.len);
+        made->errors[i] = made->files[i].failed ? 0 : cli_put_output(run->cli, made->job->paths[i], file);
     }
     batch_note_written(made);
 }

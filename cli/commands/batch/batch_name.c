@@ -1,5 +1,7 @@
 // What the pictures of a batch are called.
 #include "cli/commands/batch/batch_job.h"
+#include "cli/commands/render_job.h"
+#include "cli/made.h"
 #include "core/heap.h"
 #include "files/files.h"
 #include "render/frames/frame_name.h"
@@ -112,8 +114,8 @@ static int judge_names(struct batch *batch, uint32_t output_count) {
     for (uint32_t i = 0; i < batch->jobs.count; i++)
         for (uint32_t k = 0; k < output_count; k++) {
             all[n] = batch->jobs.items[i].paths[k];
-            if (status == CLI_OK && !cli->options.outputs.items[k].arg)
-                status = cli_judge_default(cli, all[n]);
+            if (status == CLI_OK)
+                status = cli_judge_made(cli, render_typed(&cli->options.outputs.items[k]), all[n]);
             n++;
         }
     qsort(all, n, sizeof *all, compare);

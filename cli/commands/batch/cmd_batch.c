@@ -7,6 +7,7 @@
 #include "cli/commands/parts/part_made.h"
 #include "cli/commands/pictures/done.h"
 #include "cli/device.h"
+#include "cli/made.h"
 #include "core/clock.h"
 #include "grammar/ir.h"
 
@@ -409,6 +410,8 @@ int cmd_batch(struct cli *cli) {
         status = batch_name(&run->batch);
     if (status == CLI_OK && run->batch.film)
         status = film_begin(&run->film, cli, run->outputs.outputs[0].path, run->batch.film, run->batch.fps);
+    for (uint32_t i = 0; i < run->outputs.output_count && status == CLI_OK && cli->options.batch.montage; i++)
+        status = cli_judge_made(cli, render_typed(&run->outputs.outputs[i]), run->outputs.outputs[i].path);
     if (status != CLI_OK)
         return status;
     interrupt_catch();

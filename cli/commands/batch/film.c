@@ -1,5 +1,6 @@
 #include "cli/commands/batch/film.h"
 
+#include "cli/made.h"
 #include "core/heap.h"
 #include "files/sandbox.h"
 #include "files/spawn.h"
@@ -94,7 +95,7 @@ static int begin_y4m(struct film *film) {
     strbuf_format(&head, "YUV4MPEG2 W%u H%u F", film->width, film->height);
     put_rate(&head, film->fps);
     strbuf_cstr(&head, " Ip A1:1 C444 XCOLORRANGE=LIMITED\n");
-    if (!is_stdout(film) && !output_open(&film->output, film->path))
+    if (!is_stdout(film) && !cli_open_output(film->cli, &film->output, film->path))
         return cannot_write(film, film->output.error);
     film->is_open = !is_stdout(film);
     const int status = put_y4m(film, strbuf_view(&head));

@@ -88,6 +88,8 @@ int cmd_farm(struct cli *cli) {
     if (status == CLI_OK)
         status = choose_tasks(cli, &plan);
     if (status == CLI_OK)
+        status = farm_judge_logs(cli, &plan);
+    if (status == CLI_OK)
         status = pack(cli, &plan);
     if (status == CLI_OK)
         status = write_script(cli, &plan);

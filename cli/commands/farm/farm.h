@@ -44,6 +44,8 @@ struct farm_plan {
 int farm_plan_make(struct cli *cli, struct farm_plan *plan);
 // farm_file.c: whether the folder can take the plan; makes it. An exit code.
 int farm_begin(struct cli *cli, struct farm_plan *plan);
+// Whether the tasks' logs may be written, once it is known how many there are. An exit code.
+int farm_judge_logs(struct cli *cli, const struct farm_plan *plan);
 // The folder stays, or, after an error, goes if farm_begin made it. The plan stays where it is between them.
 void farm_end(struct farm_plan *plan, int status);
 // farm_pilot.c: whether the scene can be rendered so, without a device. An exit code.

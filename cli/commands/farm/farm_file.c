@@ -1,6 +1,7 @@
 // The plan as a file of its folder: lines of a word and its value, as the head of a part has them.
 #include "cli/commands/farm/farm.h"
-#include "files/output.h"
+#include "cli/commands/render_job.h"
+#include "cli/made.h"
 #include "files/stream.h"
 #include "render/frames/frame_name.h"
 
@@ -10,6 +11,7 @@
 #include <sys/stat.h>
 
 #define PLAN_NAME "farm.plan"
+#define LOG_NAME  "log"
 
 enum {
     PLAN_BYTES = 65536, // a plan is shorter
@@ -31,10 +33,46 @@ static void write_plan(const struct farm_plan *plan, struct strbuf *out) {
         strbuf_format(out, "part %s\n", plan->part);
 }
 
-int farm_begin(struct cli *cli, struct farm_plan *plan) {
+// What is written into the folder, by glint or by its script.
+static int judge_made(struct cli *cli, const struct farm_plan *plan) {
+    const char *typed = in_folder(cli, plan->folder, "");
+    int status = cli_judge_made(cli, typed, in_folder(cli, plan->folder, PLAN_NAME));
+    if (status == CLI_OK)
+        status = cli_judge_made(cli, typed, in_folder(cli, plan->folder, farm_script_name(plan->engine)));
+    if (status == CLI_OK)
+        status = cli_judge_made_folder(cli, typed, in_folder(cli, plan->folder, LOG_NAME));
+    return status;
+}
+
+int farm_judge_logs(struct cli *cli, const struct farm_plan *plan) {
+    static const char *const lists[] = {"parallel.txt", "parallel.txt.named", NULL};
+    const char *log = plan->folder ? in_folder(cli, plan->folder, LOG_NAME) : NULL;
     struct stat there;
-    if (!plan->folder)
+    int status = CLI_OK;
+    if (!log || lstat(log, &there) != 0)
         return CLI_OK;
+    const char *typed = in_folder(cli, log, "");
+    for (const char *const *list = lists; *list && status == CLI_OK; list++)
+        status = cli_judge_made(cli, typed, in_folder(cli, log, *list));
+    for (uint32_t i = 0; i < plan->tasks && status == CLI_OK; i++)
+        status = cli_judge_made(cli, typed, arena_format(&cli->arena, "%s%u.jsonl", typed, i).ptr);
+    return status;
+}
+
+// Without frames each task is given the name of its part; frames' names are judged by the tasks.
+static int judge_parts(struct cli *cli, const struct farm_plan *plan) {
+    int status = CLI_OK;
+    for (uint32_t i = 1; i <= plan->tiles && status == CLI_OK && plan->part && !plan->has_frames; i++)
+        status = cli_judge_made(cli, render_typed(&cli->options.outputs.items[0]),
+                                arena_format(&cli->arena, "%s%u.part", plan->part, i).ptr);
+    return status;
+}
+
+int farm_begin(struct cli *cli, struct farm_plan *plan) {
+    const int parts = judge_parts(cli, plan);
+    struct stat there;
+    if (parts != CLI_OK || !plan->folder)
+        return parts;
     const char *path = in_folder(cli, plan->folder, PLAN_NAME);
     if (!cli->options.force && stat(path, &there) == 0) {
         const int status =
@@ -48,7 +86,7 @@ int farm_begin(struct cli *cli, struct farm_plan *plan) {
         cli_error(cli, DIAG_OUTPUT, plan->folder, NULL, "the folder cannot be made: %s", strerror(errno));
         return CLI_FILE;
     }
-    return CLI_OK;
+    return judge_made(cli, plan);
 }
 
 void farm_end(struct farm_plan *plan, int status) {
@@ -68,7 +106,7 @@ int farm_save(struct cli *cli, const struct farm_plan *plan, str script) {
     write_plan(plan, &text);
     const str texts[] = {script, strbuf_view(&text)};
     for (int i = 0; i < 2 && status == CLI_OK; i++) {
-        if (output_open(&outputs[i], paths[i]))
+        if (cli_open_output(cli, &outputs[i], paths[i]))
             output_write(&outputs[i], texts[i].ptr, texts[i].len);
         if (text.failed || outputs[i].error)
             status = cli_not_written(cli, paths[i], text.failed ? ENOMEM : outputs[i].error);

@@ -1,5 +1,6 @@
 // glint import MESH -o SCENE: a scene to go on with, and the images that it needs beside it.
 #include "cli/commands/commands.h"
+#include "cli/made.h"
 #include "edit/convert.h"
 #include "grammar/mesh_format.h"
 #include "grammar/schema.h"
@@ -116,6 +117,11 @@ static int write_all(struct import_job *job) {
     if (found)
         return CLI_FILE;
     for (uint32_t i = 0; i < job->plan.images.count; i++) {
+        const int status = cli_judge_made(job->cli, job->out, job->plan.images.items[i].path.ptr);
+        if (status != CLI_OK)
+            return status;
+    }
+    for (uint32_t i = 0; i < job->plan.images.count; i++) {
         const struct import_file *file = &job->plan.images.items[i];
         const int status = cli_write(job->cli, file->path.ptr, file->bytes);
         if (status != CLI_OK)
@@ -149,7 +155,7 @@ int cmd_import(struct cli *cli) {
         return CLI_USAGE;
     struct import_job job = {.cli = cli, .session = &session};
     job.out = cli->options.output ? cli->options.output : default_output(cli);
-    const int named = cli->options.output ? CLI_OK : cli_judge_default(cli, job.out);
+    const int named = cli->options.output ? CLI_OK : cli_judge_made(cli, "", job.out);
     if (named != CLI_OK)
         return named;
     convert_spelling_of(str_from(job.out), &spelling);

@@ -2,6 +2,7 @@
 // error.
 #include "cli/commands/commands.h"
 #include "cli/device.h"
+#include "cli/made.h"
 #include "cli/progress.h"
 #include "grammar/ir.h"
 #include "render/live/live_report.h"
@@ -128,7 +129,7 @@ int cmd_view(struct cli *cli) {
     v.output = cli->options.output ? cli->options.output : cli_default_picture(cli, cli->operands[0]);
     int status = refuse(cli);
     if (status == CLI_OK && !cli->options.output)
-        status = cli_judge_default(cli, v.output);
+        status = cli_judge_made(cli, "", v.output);
     if (status != CLI_OK)
         return status;
     if (!image_format_of_path(str_from(v.output), IMAGE_WRITTEN, &v.format))

@@ -4,6 +4,7 @@
 #include "cli/commands/pictures/provenance.h"
 #include "cli/commands/render_job.h"
 #include "cli/device.h"
+#include "cli/made.h"
 #include "cli/progress.h"
 #include "core/clock.h"
 #include "grammar/ir.h"
@@ -241,7 +242,7 @@ int cmd_watch(struct cli *cli) {
     w.output = cli->options.output ? cli->options.output : cli_default_picture(cli, scene);
     int status = refuse(cli, w.output);
     if (status == CLI_OK && !cli->options.output)
-        status = cli_judge_default(cli, w.output);
+        status = cli_judge_made(cli, "", w.output);
     if (status != CLI_OK)
         return status;
     image_format_of_path(str_from(w.output), IMAGE_WRITTEN, &w.format);

@@ -4,6 +4,7 @@
 #include "cli/commands/pictures/done.h"
 #include "cli/commands/pictures/provenance.h"
 #include "cli/commands/render_job.h"
+#include "cli/made.h"
 #include "cli/progress.h"
 #include "core/ranges.h"
 #include "render/frames/frame_name.h"
@@ -208,12 +209,23 @@ static void take_names(struct cli *cli, char **argv, char **patterns, char **nam
     cli->operands = names;
 }
 
+// The picture's name in all frames.
+static int judge_made(struct cli *cli, const char *pattern) {
+    const struct cli_batch *b = &cli->options.batch;
+    int status = CLI_OK;
+    for (int64_t frame = b->first_frame; frame <= b->last_frame && status == CLI_OK; frame += b->frame_step)
+        status = cli_judge_made(cli, pattern, name_in_frame(cli, pattern, (int32_t)frame));
+    return status;
+}
+
 // A frame that fails is reported, and the others are joined.
 static int merge_frames(struct cli *cli) {
     const struct cli_batch *b = &cli->options.batch;
     char **patterns = cli->operands, **argv = cli->argv;
     uint32_t failed = 0, count = 0;
     int status = judge_patterns(cli, patterns);
+    if (status == CLI_OK)
+        status = judge_made(cli, patterns[0]);
     if (status != CLI_OK)
         return status;
     interrupt_catch();

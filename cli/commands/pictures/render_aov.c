@@ -1,6 +1,7 @@
 // What else is known of a picture's pixels: --aov, by the tracer that made the picture.
 #include "cli/commands/render_job.h"
 #include "cli/device.h"
+#include "cli/made.h"
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "picture/write/exr_file.h"
@@ -322,9 +323,17 @@ static int write_made(struct render_job *job, const char *path, struct strbuf *m
     return status;
 }
 
+static const char *plane_name(struct render_job *job, str stem, enum aov aov) {
+    return arena_format(&job->cli->arena, "%.*s.%s.pfm", STR_ARG(stem), aov_info(aov)->name).ptr;
+}
+
+static const char *list_name(struct render_job *job, str stem) {
+    return arena_format(&job->cli->arena, "%.*s.names.json", STR_ARG(stem)).ptr;
+}
+
 static int write_plane(struct render_job *job, str stem, enum aov aov) {
     const struct aov_info *info = aov_info(aov);
-    const char *path = arena_format(&job->cli->arena, "%.*s.%s.pfm", STR_ARG(stem), info->name).ptr;
+    const char *path = plane_name(job, stem, aov);
     struct image image;
     struct strbuf file;
     if (!image_init(&image, job->image.width, job->image.height))
@@ -340,7 +349,7 @@ static int write_plane(struct render_job *job, str stem, enum aov aov) {
 }
 
 static int write_names(struct render_job *job, str stem) {
-    const char *path = arena_format(&job->cli->arena, "%.*s.names.json", STR_ARG(stem)).ptr;
+    const char *path = list_name(job, stem);
     struct strbuf file;
     strbuf_init(&file);
     aov_names_json(&job->aovs->names, &job->session.sources, &file);
@@ -349,16 +358,36 @@ static int write_names(struct render_job *job, str stem) {
     return status;
 }
 
-int render_write_aovs(struct render_job *job, uint32_t camera) {
+// The output that the files lie beside.
+static const struct cli_output *output_beside(const struct render_job *job) {
     const struct cli_output *beside = exr_output(job);
-    const bool apart = !beside;
+    beside = beside ? beside : job->outputs;
+    while (beside + 1 < job->outputs + job->output_count && strcmp(beside->path, "-") == 0)
+        beside++;
+    return beside;
+}
+
+int render_judge_aov_names(struct render_job *job, uint32_t camera) {
+    int status = CLI_OK;
+    if (!job->cli->options.aovs)
+        return CLI_OK;
+    const struct cli_output *beside = output_beside(job);
+    const char *typed = render_typed(beside);
+    const str stem = render_stem_of(str_from(render_output_of(job, beside, camera)));
+    for (int i = 0; i < AOVS && status == CLI_OK && !exr_output(job); i++)
+        if (wants(job, (enum aov)i))
+            status = cli_judge_made(job->cli, typed, plane_name(job, stem, (enum aov)i));
+    if (status == CLI_OK && (wants(job, AOV_OBJECT) || wants(job, AOV_MATERIAL)))
+        status = cli_judge_made(job->cli, typed, list_name(job, stem));
+    return status;
+}
+
+int render_write_aovs(struct render_job *job, uint32_t camera) {
+    const bool apart = !exr_output(job);
     int status = CLI_OK;
     if (!job->aovs)
         return CLI_OK;
-    if (apart)
-        beside = job->outputs;
-    while (beside + 1 < job->outputs + job->output_count && strcmp(beside->path, "-") == 0)
-        beside++;
+    const struct cli_output *beside = output_beside(job);
     const str stem = render_stem_of(str_from(render_output_of(job, beside, camera)));
     for (int i = 0; i < AOVS && status == CLI_OK && apart; i++)
         if (wants(job, (enum aov)i))

@@ -31,16 +31,12 @@ const char *render_output_of(struct render_job *job, const struct cli_output *ou
                : output->path;
 }
 
-int render_judge_defaults(struct render_job *job, uint32_t first, uint32_t end) {
-    int status = CLI_OK;
-    for (uint32_t i = 0; i < job->output_count; i++)
-        for (uint32_t k = first; k < end && status == CLI_OK && !job->outputs[i].arg; k++)
-            status = cli_judge_default(job->cli, render_output_of(job, &job->outputs[i], k));
-    return status;
-}
-
 static bool is_stdout(const struct cli_output *output) {
     return strcmp(output->path, "-") == 0;
+}
+
+const char *render_typed(const struct cli_output *output) {
+    return output->arg ? output->path : "";
 }
 
 bool render_uses_stdout(const struct render_job *job) {

@@ -1,6 +1,6 @@
 #include "cli/commands/pictures/row_files.h"
 
-#include "files/output.h"
+#include "cli/made.h"
 
 #include <errno.h>
 #include <string.h>
@@ -47,7 +47,7 @@ int row_file_write(struct cli *cli, const char *path, const struct image_rows *r
     through.take = take;
     through.context = &w;
     *rows_ended = false;
-    if (!output_open(&w.output, path))
+    if (!cli_open_output(cli, &w.output, path))
         return fail(cli, path, w.output.error);
     const bool written =
         part ? part_write_rows(part, &through, &sink) : image_rows_write(&through, format, display, &sink);
