@@ -19,7 +19,7 @@ struct asset_ahead *ahead_begin(const struct assets_input *input, struct asset_h
 bool ahead_is_for(struct asset_ahead *ahead, const struct file_read *identity, struct store_entry *entry,
                   const struct asset_file *file);
 // Waits for the pixels, which become the noted entry's, or its fault, which is picture_no_memory where
-// memory ended. Returns the noted file, for what is to be reported; NULL: nothing was noted.
+// memory ended. Returns the noted file, for what must be reported; NULL: nothing was noted.
 struct asset_file *ahead_take(struct asset_ahead *ahead, struct store_entry **entry);
 // NULL does nothing.
 void ahead_finish(struct asset_ahead *ahead);

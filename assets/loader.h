@@ -129,7 +129,7 @@ void loader_load_coordinates(struct loader *loader, const struct assets_model *m
                              struct loaded_mesh *loaded);
 
 // gltf_assets.c: the document of a mesh that is a glTF file, opened when the first model names it; what it
-// loses is told at the end. The material of a group of its mesh; false: it has none.
+// loses is reported at the end. The material of a group of its mesh; false: it has none.
 bool loader_open_document(struct loader *loader, struct asset_file *file, const struct file_read *identity);
 void loader_close_documents(struct loader *loader);
 bool loader_document_material(const struct loader *loader, struct loaded_mesh *loaded, str group,

@@ -182,7 +182,7 @@ struct session_options cli_session_options(const struct cli *cli, const char *pa
 int cli_not_written(struct cli *cli, const char *path, int error) {
     const bool is_stdout = strcmp(path, "-") == 0;
     if (error == EPIPE && is_stdout)
-        return CLI_PIPE; // 'glint ... | head' is no mistake
+        return CLI_PIPE; // 'glint ... | head' is not a mistake
     cli_error(cli, DIAG_OUTPUT, is_stdout ? "standard output" : path, NULL, "cannot be written: %s",
               strerror(error));
     return CLI_FILE;

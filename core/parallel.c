@@ -18,7 +18,7 @@ enum {
 // thread's share, so that nested calls do not multiply their threads.
 static _Thread_local unsigned share;
 
-// Who looks on at this thread, and the loop whose progress it is told; NULL: there is none.
+// Who looks on at this thread, and the loop whose progress it sees; NULL: there is none.
 static _Thread_local const struct parallel_looker *looker;
 static _Thread_local const struct job *shown;
 

@@ -173,7 +173,7 @@ uint32_t source_line(struct source_set *set, span at) {
     return find_line(source, at.begin < size ? at.begin : size).index + 1;
 }
 
-// Where a line begins, counted from 0; behind the last one: the end of the text.
+// Where a line begins, counted from 0; after the last one: the end of the text.
 static size_t line_begin(const struct source *source, uint32_t index) {
     if (source->line_starts)
         return index < source->line_count ? source->line_starts[index] : source->text.len;

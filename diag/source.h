@@ -73,7 +73,7 @@ void source_set_copy(const struct source_set *from, struct arena *arena, struct 
 struct source_place source_locate(struct source_set *set, span at);
 // Only the line: it does not depend on how long that is.
 uint32_t source_line(struct source_set *set, span at);
-// A line, counted from 1, without its line end; behind the last line: nothing, at the end of the text.
+// A line, counted from 1, without its line end; after the last line: nothing, at the end of the text.
 span source_line_span(struct source_set *set, uint32_t source, uint32_t line);
 // The text of a span; the empty string for spans without text.
 str source_text(const struct source_set *set, span at);

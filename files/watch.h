@@ -2,8 +2,8 @@
 //
 // What counts is a file's size and time of change, compared with those that it had when it was read: no
 // change is lost between reading and watching. inotify on the folders only says when to look, so that it does
-// not matter how an editor saves: in place, or by a new file that takes the old one's name. Where there is no
-// inotify, and for folders of other machines, it looks by itself from time to time.
+// not matter how an editor saves: in place, or by a new file that takes the old one's name. Without inotify,
+// and for folders of other machines, it looks by itself from time to time.
 //
 // Input: paths, as the process opens them. Errors: a watch that cannot be made is NULL; a folder that cannot
 // be watched is looked at from time to time. Ownership: watch_destroy frees all and takes NULL. Times in
@@ -32,7 +32,7 @@ bool watch_add_missing(struct watch *watch, str path);
 bool watch_add_now(struct watch *watch, str path);
 // Whether any of them is not as it was added, now.
 bool watch_differs(const struct watch *watch);
-// The same, for one who asks all the time: files are looked at only if something was told since the last
+// The same, for one who asks all the time: files are looked at only if something has changed since the last
 // look, or that is WATCH_SLOW_SECONDS ago (without inotify WATCH_POLL_SECONDS). A change is not lost, but
 // found once.
 bool watch_look(struct watch *watch);

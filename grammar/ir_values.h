@@ -14,7 +14,7 @@ enum {
     IR_VALUES_MOST = 4
 };
 
-// The first value of *rest, without blanks around it, which is taken off. false: nothing is left. An empty
+// The first value of *rest, without spaces around it, which is taken off. false: nothing is left. An empty
 // value between commas is one.
 bool ir_values_next(str *rest, str *value);
 uint32_t ir_values_count(str text);

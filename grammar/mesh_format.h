@@ -1,7 +1,7 @@
 // The formats of mesh files, as mesh_formats.def has them: the one place that knows which files are meshes.
 //
 // Input: a path, or the beginning of a file. Output: constant data, or words in an arena. Errors: none; what
-// is no mesh has no format. Thread safety: pure.
+// is not a mesh has no format. Thread safety: pure.
 #ifndef GLINT_GRAMMAR_MESH_FORMAT_H
 #define GLINT_GRAMMAR_MESH_FORMAT_H
 

@@ -6,7 +6,7 @@ enum {
 };
 
 struct pairs {
-    const struct lint_body *body; // whose partners are looked for
+    const struct lint_body *body; // whose partners the search finds
     uint64_t left;
     bool stopped;
     lint_take_pair *take;

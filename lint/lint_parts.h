@@ -68,7 +68,7 @@ struct lint {
 // Bodies, meshes and views. In lint_bodies.c.
 void lint_collect(struct lint *lint);
 const struct lint_tree *lint_tree_of(struct lint *lint, struct lint_mesh *mesh);
-// Crossings (of a mesh that refracts) and overlaps in one plane, once for each mesh. In self_pairs.c.
+// Crossings (of a mesh that refracts) and overlaps in the same plane, once for each mesh. In self_pairs.c.
 void lint_find_pairs(struct lint *lint, struct lint_mesh *mesh);
 // How often a solid surrounds the point (negative where its faces point inwards); 0: outside.
 int lint_winding(struct lint *lint, const struct lint_body *body, vec3 point);

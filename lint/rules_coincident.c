@@ -1,4 +1,4 @@
-// Faces that lie in one plane and cover each other: which one is seen is decided by rounding.
+// Faces that lie in the same plane and cover each other: which one is seen is decided by rounding.
 //
 // Within a mesh: lint_find_pairs. Between bodies: those at equal places first, then each pair whose boxes
 // overlap (body_pairs.c), the faces of the smaller body against the tree of the larger one. Two faces count

@@ -85,7 +85,7 @@ static void look_at_material(struct lint *lint, const struct ir_material *materi
         report_image(lint, material, &material->specular_color.image, "specular_color", "specular");
 }
 
-// ---- lights that are to be seen
+// ---- lights that must be seen
 
 static void look_at_light(struct lint *lint, const struct view_light *light) {
     const struct ir_light *ir = &lint->ir->lights.items[light->index];

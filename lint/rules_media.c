@@ -21,7 +21,7 @@
 enum {
     FACES_MAX = 10000000,  // of meshes that are looked at
     CROWDS_MAX = 20000000, // bodies around cameras: further cameras are not looked at
-    SAMPLES = 512,         // points of one mesh that are looked for in another
+    SAMPLES = 512,         // points of one mesh that the search tries in another
     NOTED = 3,             // other bodies that one finding names
 };
 

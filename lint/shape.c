@@ -117,7 +117,7 @@ bool lint_faces_cross(const struct lint_face *a, const struct lint_face *b, doub
     return common > sine * fmax(tolerance, SHALLOW * fmin(size_a, size_b));
 }
 
-// ---- lying in one plane
+// ---- lying in the same plane
 
 static bool lies_near(const struct lint_triangle *t, vec3 at, vec3 unit_normal, double near) {
     for (int k = 0; k < 3; k++)

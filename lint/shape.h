@@ -55,9 +55,9 @@ struct lint_face lint_face_of(struct lint_triangle triangle);
 // which the planes' common line crosses them have a piece in common (Möller 1997), each of these by more than
 // the tolerance and a thousandth of the triangle's size. Triangles that share a corner or an edge do not.
 bool lint_faces_cross(const struct lint_face *a, const struct lint_face *b, double tolerance);
-// Whether they lie in one plane (all six corners within `near` of the other's) and cover a common area, wider
-// than the tolerance and a hundredth of the narrower one in every direction (separating axes: Gottschalk, Lin
-// and Manocha 1996). Neighbours along an edge do not.
+// Whether they lie in the same plane (all six corners within `near` of the other's) and cover a common area,
+// wider than the tolerance and a hundredth of the narrower one in every direction (separating axes:
+// Gottschalk, Lin and Manocha 1996). Neighbours along an edge do not.
 bool lint_faces_coincide(const struct lint_face *a, const struct lint_face *b, double near, double tolerance);
 // What must hold of a triangle and another's plane for lint_faces_cross and lint_faces_coincide; cheaper, as
 // it needs one normal.

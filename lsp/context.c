@@ -27,7 +27,7 @@ static size_t line_begin(str text, size_t at) {
     return at;
 }
 
-// Where the content of a line begins, after blanks and the '-' of entries, and before `most`. *dash: the
+// Where the content of a line begins, after spaces and the '-' of entries, and before `most`. *dash: the
 // column of the last '-'; -1: none.
 static size_t content_begin(str text, size_t begin, size_t most, int *dash) {
     size_t at = begin;
@@ -42,7 +42,7 @@ static size_t content_begin(str text, size_t begin, size_t most, int *dash) {
     return at;
 }
 
-// The word that ends before the ':' that is the last but blanks before `end`; empty: there is none.
+// The word that ends before the ':' that is the last but spaces before `end`; empty: there is none.
 static str key_before(str text, size_t begin, size_t end) {
     while (end > begin && strchr(" \t", text.ptr[end - 1]))
         end--;

@@ -319,7 +319,7 @@ static void prepare(void *context) {
     p->version = c->request.document->version;
 }
 
-// The scene whose text cannot even be understood; NULL: the document is no scene's.
+// The scene whose text cannot even be understood; NULL: the document is not a scene's.
 static struct session *broken_scene(struct server *server, const struct document *document) {
     for (uint32_t i = 0; i < server->scenes.count; i++) {
         struct lsp_scene *scene = server->scenes.items[i];

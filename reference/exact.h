@@ -24,7 +24,7 @@ void exact_begin(const struct reference *r, const struct ray *ray, const int axe
 // The hit at t > 0, without t_max. t_error: how far the rounding of the scene's own numbers moves t.
 bool exact_intersect(const struct exact_ray *ray, const struct primitive *p, struct intersection *out);
 
-// How far the rounding of the scene's numbers moves the place where a ray meets the triangle, in its t.
+// How far the rounding of the scene's numbers moves the place where a ray hits the triangle, in its t.
 double exact_blur(const struct primitive *p, vec3 direction, double unit);
 
 // Unit, by the corners as stored.

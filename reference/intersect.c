@@ -154,7 +154,7 @@ struct search {
     bool any;
     struct intersection nearest;
     double end; // nothing farther away matters any more
-    // Intersections that rounding cannot tell from the nearest: faces in one plane, edges that touch.
+    // Intersections that rounding cannot tell from the nearest: faces in the same plane, edges that touch.
     struct intersection ties[TIES_MOST];
     int tie_count;
 };

@@ -127,7 +127,7 @@ static struct ray ray_to(const struct reference *r, const struct view_light *lig
 }
 
 // What bodies that refract let through to the light: a product of what each does, in the order in which the
-// ray meets them. 0: something opaque is between.
+// ray hits them. 0: something opaque is between.
 static vec3 shining(const struct reference *r, const struct view_light *light, const struct spot *spot,
                     struct start start, struct inside inside, struct lighting *out) {
     vec3 left = {1, 1, 1};

@@ -165,7 +165,7 @@ static struct place place_at(const struct spot *spot) {
 // How near to a sphere's axis differences are taken, radius 1.
 #define NEAREST_AXIS 1e-6
 
-// On a sphere, by places that are no nearer to its axis.
+// On a sphere, by places that are not nearer to its axis.
 static double off_axis(struct spot *spot) {
     const double size = vec3_length(spot->arm), around = hypot(spot->arm.x, spot->arm.z);
     if (around >= NEAREST_AXIS * size)

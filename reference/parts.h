@@ -260,7 +260,7 @@ struct surface {
 
 void reference_surface(const struct reference *r, const struct ray *ray, const struct intersection *hit,
                        struct surface *out);
-// Of a rough surface the facet that a ray meets, whose key is `key`.
+// Of a rough surface the facet that a ray hits, whose key is `key`.
 void reference_roughen(const struct reference *r, struct surface *s, vec3 direction,
                        const struct points *points, uint32_t key);
 vec3 reference_mirrored(const struct reference *r, const struct surface *s, vec3 direction);

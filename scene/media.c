@@ -217,7 +217,7 @@ static double edge_of(const double a[3], const double b[3]) {
 enum crossing {
     CROSSING_NONE,
     CROSSING_HIT,
-    CROSSING_EDGE, // the ray meets an edge: another direction is needed
+    CROSSING_EDGE, // the ray hits an edge: another direction is needed
 };
 
 // Triangles that share an edge compute it from the same numbers, so that none or one of them is hit (Woop,

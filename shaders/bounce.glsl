@@ -63,7 +63,7 @@ float fresnel_share(REAL n, REAL m, REAL c, REAL k, bool pane) {
     return float(n == m ? 0.0 : k <= 0.0 ? 1.0 : both);
 }
 
-// The cones of rays that a surface sends on: its normal turns the more the wider the cone is there.
+// The cones of rays that leave a surface: its normal turns the more the wider the cone is there.
 RAY_CONE mirrored_cone(surface s, RAY_CONE cone) { return vec2(s.width, cone.y + 2.0 * s.bend * s.width); }
 
 RAY_CONE bent_cone(surface s, RAY_CONE cone, REAL3 from, REAL3 to) {
@@ -73,7 +73,7 @@ RAY_CONE bent_cone(surface s, RAY_CONE cone, REAL3 from, REAL3 to) {
     return vec2(s.width, straight ? cone.y : eta * cone.y + along * s.bend * s.width);
 }
 
-// What a surface sends on of a ray.
+// What leaves a surface of a ray.
 struct scatter_rays {
     REAL3 bent;                   // direction of the refracted ray
     float reflection, refraction; // factors of the ray's throughput; 0: no such ray

@@ -126,7 +126,7 @@ REAL3 load_normal(body_record body, uint index) {
 
 // ---- whether a triangle near its start concerns a ray
 
-// A search of flattened triangles sees those whose boxes it meets. Here other boxes are met, so that the same question is
+// A search of flattened triangles sees those whose boxes it hits. Here other boxes are met, so that the same question is
 // asked of each triangle by itself: where it is only the rounding of the ray's start that a triangle is about, the
 // answer must not depend on how its box lies.
 #ifdef DOUBLE_PRECISION

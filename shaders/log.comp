@@ -90,7 +90,7 @@ void write_ray(uint at, ray_start start, REAL3 direction, RAY_CONE cone) {
     pixels[at + 4u] = uvec4(bits_of(start.b1), bits_of(start.b2));
 }
 
-// What is left of light on the way to what the ray meets.
+// What is left of light on the way to what the ray hits.
 void write_way(uint at, log_ray ray, REAL way) {
     vec3 left = vec3(1.0);
     if (HAS_ATTENUATION && wants(FEATURE_ATTENUATION))
@@ -133,7 +133,7 @@ void add_to_log(uint at, vec3 value) {
     pixels[at + 9u] = uvec4(low_z.xy, bits.z, low_z.w);
 }
 
-// What a ray comes to that is no shadow ray; a blind one was not traced, and sees the background.
+// What a ray comes to that is not a shadow ray; a blind one was not traced, and sees the background.
 void write_hit(uint at, log_ray ray, hit_record hit, bool blind, bool ended) {
     seen_light seen = no_light(blind ? -FAR_AWAY : hit.t);
     if (HAS_SEEN_LIGHT)

@@ -176,7 +176,7 @@ REAL3 shine_direction(shining way, light_record light, light_ray ray) {
     return ray.t_max < FAR_AWAY ? place - way.start.at : ray.direction;
 }
 
-// A shadow ray met a surface, or came to the light. true: it goes on behind the surface.
+// A shadow ray has hit a surface, or came to the light. true: it goes on behind the surface.
 bool shine_on(inout shining way, hit_record hit, light_ray ray) {
     bool arrived = hit.item == NO_ITEM, is_point = ray.t_max < FAR_AWAY;
     REAL size = sqrt(dot3(ray.direction, ray.direction));

@@ -93,7 +93,7 @@ void read_material(uint shade, uint body, REAL2 along, paint_spot spot, inout su
     s.body = body;
 }
 
-// The cone's width where it meets a surface, and the axes of the footprint there.
+// The cone's width where it hits a surface, and the axes of the footprint there.
 paint_spot begin_spot(REAL t, REAL3 direction, inout surface s) {
     paint_spot spot = paint_spot(REAL2(0.0), REAL2(0.0), REAL2(0.0), REAL3(0.0), REAL3(0.0));
     s.bend = 0.0;

@@ -52,7 +52,7 @@ const uint MISSED = 1u;    // the chain ends at the background
 const uint ENDED = 2u;     // the chain ends at a surface
 const uint SUSPENDED = 3u; // to be saved
 const uint STOPPED = 4u;   // a fault
-const uint UNDECIDED = 5u; // the ray is to be traced once more, exactly
+const uint UNDECIDED = 5u; // the ray must be traced once more, exactly
 
 // What this invocation counted, with HAS_COUNTERS, until it ends: the device's counters, for which all wait, would
 // cost as much as the rays. The host knows how many rays the camera sends.

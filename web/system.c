@@ -1,5 +1,5 @@
 // What a module of WebAssembly has no system for: other programs and more than one processor. Who calls these
-// is told so, as anywhere else where they fail.
+// is refused, as anywhere else where they fail.
 #define _GNU_SOURCE
 #include "files/git_run.h"
 

@@ -137,7 +137,7 @@ static void drag(struct steer *steer, double dx, double dy) {
     const bool orbits = steer->is_down[STEER_RIGHT] && steer->has_pivot;
     if (fabs(steer->x - steer->down_x) + fabs(steer->y - steer->down_y) > CLICK_PIXELS)
         steer->is_click = false;
-    // A click is no drag: the first pixels do nothing.
+    // A click is not a drag: the first pixels do nothing.
     if (steer->is_down[STEER_LEFT] && steer->is_click)
         return;
     if (steer->is_down[STEER_LEFT] || steer->is_down[STEER_RIGHT])

@@ -187,7 +187,7 @@ static void take_means(const struct picture *picture, struct gltf_means *out) {
     out->metal = fmin(sum[1] / (double)pixels, 1);
 }
 
-// What cannot be read is told where an image is drawn, and counts as none here.
+// What cannot be read is reported where an image is drawn, and counts as none here.
 static void read_means(void *context) {
     struct mean *mean = context;
     struct gltf_document *document = mean->document;

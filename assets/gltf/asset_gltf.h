@@ -1,5 +1,5 @@
 // A glTF file that is open, as an asset: its buffers and images are found beside it, and what is wrong with
-// it is told at its place, with notes up to the scene that names it.
+// it is reported at its place, with notes up to the scene that names it.
 //
 // One document serves all models that show parts of the file. Errors: diagnostics, and document->file.errors;
 // a document with errors shows nothing. Ownership: on the heap, freed by gltf_documents_finish; what its
@@ -36,7 +36,7 @@ void gltf_documents_finish(struct gltf_document *first);
 // Brings the buffers, once; false: the document has errors.
 bool gltf_document_buffers(struct gltf_document *document);
 // Runs work that allocates from the document's arena, and from `others` (NULL at the end, two at most); what
-// it lacks is told.
+// it lacks is reported.
 void gltf_document_guarded(struct gltf_document *document, struct arena *const *others, arena_work *work,
                            void *context);
 

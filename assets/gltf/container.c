@@ -17,7 +17,7 @@ bool gltf_is_binary(str bytes) {
     return str_starts_with(bytes, STR("glTF"));
 }
 
-// The chunk at *at, which moves past it; false: it is told.
+// The chunk at *at, which moves past it; false: the fault is reported.
 static bool take_chunk(struct gltf *gltf, str bytes, size_t *at, uint32_t *kind, str *chunk) {
     if (bytes.len - *at < CHUNK_HEADER_BYTES) {
         gltf_add(gltf, DIAG_GLTF_SYNTAX, 0, "the file ends at byte %zu, inside the header of a chunk",

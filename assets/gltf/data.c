@@ -7,7 +7,7 @@ bool gltf_is_data(str uri) {
     return str_starts_with(uri, STR("data:"));
 }
 
-// The value of a digit of base64; 64: it is none.
+// The value of a digit of base64; 64: it is not one.
 static unsigned digit_of(char c) {
     if (c >= 'A' && c <= 'Z')
         return (unsigned)(c - 'A');

@@ -1,4 +1,5 @@
-// Properties of JSON objects by their type, range and what they refer to: what is wrong is told at its place.
+// Properties of JSON objects by their type, range and what they refer to: what is wrong is reported at its
+// place.
 //
 // Thread safety: as gltf.h.
 #ifndef GLINT_ASSETS_GLTF_FIELDS_H
@@ -7,7 +8,7 @@
 #include "assets/gltf/gltf.h"
 
 // Each returns false where the property is missing or wrong, and then *out is unchanged; only what is wrong
-// is told.
+// is reported.
 bool gltf_get_number(struct gltf *gltf, json_index object, const char *key, double least, double most,
                      double *out);
 bool gltf_get_whole(struct gltf *gltf, json_index object, const char *key, uint64_t most, uint64_t *out);
@@ -29,7 +30,7 @@ bool gltf_is_clean(str text);
 // object.extensions.name; 0: none.
 json_index gltf_extension(struct gltf *gltf, json_index object, const char *name);
 
-// The values of a list that are objects, one after the other: 0 to begin, 0 at the end. Others are told.
+// The values of a list that are objects, one after the other: 0 to begin, 0 at the end. Others are reported.
 json_index gltf_next_object(struct gltf *gltf, json_index list, json_index before);
 
 #endif

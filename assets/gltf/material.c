@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-// A roughness up to which a surface that is no metal still mirrors something that can be recognised.
+// A roughness up to which a surface that is not a metal still mirrors something that can be recognised.
 #define MIRRORS_UNTIL 0.3
 #define EXPONENT_MOST 10000.0
 

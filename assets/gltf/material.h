@@ -13,7 +13,7 @@
 
 struct ir_material;
 
-// How a material is to be said.
+// How a material is written.
 struct gltf_wording {
     bool is_linear; // the scene's numbers are linear light ('transfer: srgb'), as glTF's are
     double metal,

@@ -1,7 +1,7 @@
 // Meshes: which accessors their primitives take, and whether these fit together.
 #include "assets/gltf/parts.h"
 
-// The accessor of an attribute; GLTF_NONE: it has none, or what is wrong was told.
+// The accessor of an attribute; GLTF_NONE: it has none, or what is wrong was reported.
 static uint32_t read_attribute(struct gltf *gltf, json_index attributes, const char *key, uint32_t components,
                                uint32_t count) {
     uint32_t index;

@@ -143,7 +143,7 @@ static void read_node(struct gltf *gltf, json_index node) {
         gltf_lose(gltf, GLTF_LOSS_SKIN, node);
 }
 
-// The nodes that a list names get this parent; a node that has one is told, and keeps it.
+// The nodes that a list names get this parent; a node that has one is reported, and keeps it.
 static void adopt(struct gltf *gltf, json_index list, uint32_t parent) {
     for (json_index at = json_at(&gltf->json, list)->first; at; at = json_at(&gltf->json, at)->next) {
         const double number =

@@ -9,7 +9,7 @@
 // The JSON of a GLB file, and gltf->chunk. false: it has been told.
 bool gltf_take_chunks(struct gltf *gltf, str bytes, str *text);
 
-// Each fills its lists from the root of the JSON, in this order; what is wrong is told.
+// Each fills its lists from the root of the JSON, in this order; what is wrong is reported.
 void gltf_read_buffers(struct gltf *gltf); // buffers, views, accessors
 void gltf_read_images(struct gltf *gltf);  // images, samplers, textures
 void gltf_read_materials(struct gltf *gltf);

@@ -1,5 +1,6 @@
 // MTL, the material files of OBJ meshes: Kd, map_Kd, Ks, Ns, Ni, d, Tr and illum become materials of the
-// scene language. Tf has no length with which its colour would belong to what is inside a body: it is told.
+// scene language. Tf has no length with which its colour would belong to what is inside a body: it is
+// reported.
 //
 //     diffuse_color Kd; albedo (1-t, 1 if Ks is not 0, max(Ks) if illum is 3..7, t) with t = 1-d
 //     specular_color Ks; specular_exponent Ns; refractive_index Ni; fresnel if illum is 5 or 7 and Ni above 1

@@ -397,7 +397,7 @@ static void add_counts(struct obj_counts *sum, const struct obj_counts *counts) 
 }
 
 // Room for exactly what was counted, and where each chunk's part of it begins. false: it would be much more
-// than the sequential reader takes of a file that is none of ours.
+// than the sequential reader takes of a file that is not one of ours.
 static bool make_room(struct obj_reader *r, struct chunks *chunks, struct obj_counts *sum) {
     struct polygons *obj = r->obj;
     for (uint32_t i = 0; i < chunks->count; i++) {

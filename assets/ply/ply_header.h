@@ -12,7 +12,7 @@
 #include "assets/file/asset_file.h"
 
 enum ply_type {
-    PLY_NONE, // as the type of a count: the property is no list
+    PLY_NONE, // as the type of a count: the property is not a list
     PLY_INT8,
     PLY_UINT8,
     PLY_INT16,

@@ -38,7 +38,7 @@ struct ply_extent {
 enum ply_status {
     PLY_OK,
     PLY_ENDS, // the line or the file ends before
-    PLY_BAD,  // a number that is none: ply_number says why
+    PLY_BAD,  // not a number: ply_number says why
 };
 
 // Finds the rows of extent->element, whose list `extent->list` counts, from the cursor on, and moves it past
@@ -54,7 +54,7 @@ bool ply_end_row(struct ply_cursor *cursor);
 // The next value; *why is why it is bad, in text.
 enum ply_status ply_number(struct ply_cursor *cursor, enum ply_type type, double *value,
                            enum number_status *why);
-// The number of a list's items. PLY_BAD: it is no whole number from 0 on.
+// The number of a list's items. PLY_BAD: it is not a whole number of at least 0.
 enum ply_status ply_count(struct ply_cursor *cursor, enum ply_type type, uint32_t *count);
 // Passes over `count` values; false: there are fewer.
 bool ply_skip(struct ply_cursor *cursor, enum ply_type type, uint64_t count);

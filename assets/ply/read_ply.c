@@ -39,7 +39,7 @@ static size_t offset(const struct ply_reading *r, const char *at) {
     return (size_t)(at - r->file->text.ptr);
 }
 
-// Notes a fault; whether it is to be reported.
+// Notes a fault; whether it must be reported.
 static bool is_told(struct ply_reading *r) {
     atomic_store_explicit(&r->is_faulty, true, memory_order_relaxed);
     return !r->is_quiet;
@@ -141,7 +141,7 @@ static bool read_coordinate(struct ply_reading *r, struct ply_cursor *c, enum pl
     return status != PLY_ENDS;
 }
 
-// A part of a normal; NaN if it is none, so that the normal counts as one of length 0.
+// A part of a normal; NaN if it is not a number, so that the normal counts as one of length 0.
 static bool read_normal(struct ply_reading *r, struct ply_cursor *c, enum ply_type type, double *value) {
     enum number_status why = NUMBER_OK;
     const enum ply_status status = ply_number(c, type, value, &why);

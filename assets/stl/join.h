@@ -15,7 +15,7 @@ struct join {
     uint32_t slot_count;  // a power of two
 };
 
-// For about so many different positions; more are no fault.
+// For about so many different positions; more are not a fault.
 void join_init(struct join *join, struct arena *arena, struct polygons *out, uint32_t expected);
 // The numbers of the vertices at these positions, in turn; those that are new are added. No part of them is
 // -0. Many at once are faster than one: where they are in memory is asked for before it is needed.

@@ -1,7 +1,7 @@
 // Positions in single precision to vertices: equal ones get one number, in the order of where they first
 // come.
 //
-// A corner is looked for among those of the facet before, with which most facets share an edge, and then in a
+// A corner is sought among those of the facet before, with which most facets share an edge, and then in a
 // hash table with open addressing, whose slots hold the positions themselves, so that to look one up takes
 // one place in memory (join.h is for the doubles of text, and needs two). Ownership: all is in the arena,
 // which must be guarded. Thread safety: one table belongs to one thread.
@@ -35,7 +35,7 @@ struct weld {
     unsigned filling;
 };
 
-// For about so many different positions; more are no fault.
+// For about so many different positions; more are not a fault.
 void weld_init(struct weld *weld, struct arena *arena, struct polygons *out, uint32_t expected);
 // Where the positions of the next WELD_FACETS facets belong, none of them -0 or NaN.
 float *weld_room(struct weld *weld);

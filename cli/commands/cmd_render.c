@@ -190,7 +190,7 @@ static int render_camera(struct render_job *job, uint32_t camera, uint32_t camer
     return status;
 }
 
-// A device that fails is told after what the scene has wrong.
+// A device that fails is reported after what the scene has wrong.
 static int open_device(struct render_job *job) {
     struct cli_opening *opening = job->opening;
     if (job->gpu)

@@ -110,7 +110,7 @@ static bool same_files(struct session *session, const struct inventory *after, c
     for (;; a++, b++) {
         while (a < before->count && before->items[a].role == INVENTORY_SETTINGS)
             a++;
-        // The scene around a mesh by itself was no file before.
+        // The scene around a mesh that is a scene by itself was not a file before.
         while (b < after->count && (after->items[b].role == INVENTORY_SETTINGS ||
                                     (after->items[b].role == INVENTORY_SCENE && a < before->count &&
                                      before->items[a].role != INVENTORY_SCENE)))

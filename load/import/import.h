@@ -2,8 +2,8 @@
 // for, materials with their images.
 //
 // What one node shows is one model, and nodes that show the same mesh are models of the same part of the
-// file, which glint keeps once. Where a node's matrix is no scale, rotation and move, its model is the node
-// where the file places it. docs/gltf.md says what becomes of what.
+// file, which glint keeps once. Where a node's matrix is not a scale, rotation and move, its model is the
+// node where the file places it. docs/gltf.md says what becomes of what.
 //
 // Input: an open document without errors. Output: a scene whose rows are marked as written, for
 // grammar/print/. What has no counterpart is counted in the document's losses. Ownership: the arena's, which
@@ -29,8 +29,8 @@ struct import_options {
         *images; // by image of the file, as the scene is to name it; NULL: materials are left in the file
 };
 
-// Opens the file at a path; what is wrong is told where the input's sink is. NULL: it cannot be read, or no
-// memory.
+// Opens the file at a path; what is wrong is reported where the input's sink is. NULL: it cannot be read, or
+// no memory.
 struct gltf_document *import_open(const struct assets_input *input, str path);
 unsigned import_lacks(const struct gltf_document *document);
 void import_gltf(struct gltf_document *document, const struct import_options *options, struct arena *arena,

@@ -28,7 +28,7 @@ static const char *ending_of(enum image_format kind) {
     return image_format_info(kind)->endings[0] + 1;
 }
 
-// A file for an image that the glTF file holds; the empty string: it has none, and that was told.
+// A file for an image that the glTF file holds; the empty string: it has none, and that was reported.
 static str take_out(struct planning *p, uint32_t image) {
     struct arena *arena = &p->document->arena;
     struct asset_file file;

@@ -2,7 +2,7 @@
 // left in the file.
 //
 // Output: appended to `text`. Errors: false where the file cannot be read; loading it as a mesh reports why.
-// What lights lose is told where the input's sink is. Thread safety: one thread.
+// What lights lose is reported where the input's sink is. Thread safety: one thread.
 #ifndef GLINT_LOAD_IMPORT_SCENE_TEXT_H
 #define GLINT_LOAD_IMPORT_SCENE_TEXT_H
 

@@ -79,8 +79,8 @@ static str key_of(struct taking *t, const struct diag *item) {
     return arena_copy(&t->session->arena, strbuf_view(&t->text));
 }
 
-// That the system failed is no mistake in the scene, and options are not in a file. Where an include cannot
-// be read, nobody knows what is wrong in it.
+// That the system failed is not a mistake in the scene, and options are not in a file. Where an include
+// cannot be read, nobody knows what is wrong in it.
 static bool can_be_known(const struct taking *t, const struct diag *item) {
     const struct source_set *sources = &t->session->sources;
     const span unread = t->session->unread;

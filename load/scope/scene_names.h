@@ -41,7 +41,7 @@ struct scene_names {
 enum file_status scene_names_find(struct scene_names *names, struct arena *arena, str folder);
 // Adds a file that the user named, if it begins as a scene does.
 void scene_names_add(struct scene_names *names, struct arena *arena, str path);
-// What a scene reads is no scene that was forgotten. Call scene_names_end once all folders were searched.
+// What a scene reads is not a scene that was forgotten. Call scene_names_end once all folders were searched.
 void scene_names_end(struct scene_names *names, struct arena *arena);
 void scene_names_note(struct scene_names *names, const struct session *session);
 // "there is no scene in": some of those that begin as scenes do, and what to do; for a help line.

@@ -108,7 +108,7 @@ static void take_bounds(struct binder *b, const struct key_row *row, tree_index 
         take_bound(b, key, out);
 }
 
-// What all pictures and one picture may have. false: it is none of these.
+// What all pictures and one picture may have. false: it is not one of these.
 static bool take_setting(struct binder *b, const struct key_row *row, tree_index value,
                          struct test_settings *out) {
     switch (row->value) {

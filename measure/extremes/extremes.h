@@ -3,7 +3,7 @@
 //
 // Variants are made of the IR in memory, in double; meshes and images are loaded once. Each axis varies one
 // thing; a cell is one value of it. Axes that need a shape of their own put it where the scene is, as large
-// as the scene. What is compared: the first rays (hits.h), a picture of one sample a pixel, the reference
+// as the scene. What is compared: the first rays (hits.h), a picture of one sample per pixel, the reference
 // obeying the file's depth and weight, and how much of the background each pixel's whole path sees. Precision
 // auto is decided anew for each cell. Ownership: extremes_finish frees the cells; the input must outlive the
 // run. Errors: a status; device errors in gpu_error. Thread safety: the gpu's thread.

@@ -1,4 +1,5 @@
-// Shapes that extremes puts where the scene is: a disc of slivers, two plates in one plane, two with a gap.
+// Shapes that extremes puts where the scene is: a disc of slivers, two plates in the same plane, two with a
+// gap.
 #include "measure/extremes/extremes_parts.h"
 
 #include <math.h>

@@ -39,7 +39,7 @@ static enum tradeoff_status run_rows(struct measuring *s) {
     return TRADEOFF_DONE;
 }
 
-// Probes told what to draw, and are no pictures.
+// Probes told what to draw, and are not pictures.
 static void drop_probes(struct tradeoff *t) {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < t->count; i++)

@@ -177,7 +177,7 @@ static enum tradeoff_status choose(struct tradeoff *t) {
         return TRADEOFF_MEMORY;
     for (uint32_t i = 0; i < t->count; i++) {
         const struct row *row = &t->rows[i];
-        // A picture with pixels that are no number is never chosen.
+        // A picture with pixels that are not a number is never chosen.
         choices[i] = (struct choice_row){.time_ms = row->time_ms,
                                          .noise_ms = row->noise_ms,
                                          .work = row->work.cost,

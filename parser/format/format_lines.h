@@ -1,5 +1,5 @@
-// The lines that the formatter writes, each with the comment after it: comments that were in one column are
-// aligned again. Private to parser/format*.c.
+// The lines that the formatter writes, each with the comment after it: comments that were in the same column
+// are aligned again. Private to parser/format*.c.
 //
 // Ownership: lists in the arena (which must be guarded), text in the strbuf; both the caller's.
 // Thread safety: one thread.

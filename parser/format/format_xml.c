@@ -37,7 +37,7 @@ struct printer {
 
 // ---- pieces
 
-// Behind the '>' of the DOCTYPE at `at`; 0: there is none.
+// After the '>' of the DOCTYPE at `at`; 0: there is none.
 static uint32_t behind_doctype(const struct printer *p, uint32_t at) {
     char quote = '\0';
     for (; at < p->text.len; at++) {

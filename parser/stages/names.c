@@ -124,7 +124,7 @@ static void report_duplicates(struct loader *loader, const struct named_list *li
 // References.
 
 enum {
-    SEARCHES_MAX = 50, // names that are looked for among all others, as many as are reported one by one
+    SEARCHES_MAX = 50, // names that are compared with all others, as many as are reported one by one
 };
 
 struct resolving {

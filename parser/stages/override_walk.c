@@ -125,7 +125,7 @@ static bool unknown_name(struct override *o, const struct schema_row *row, void 
     str names = STR("");
     diag_add(sink(o), override_code(o, DIAG_SET_PATH), step->at, "there is no %s '%.*s'", row->child->name,
              STR_ARG(quoted_text(o, name)));
-    // As many names are looked for among all others as are reported one by one.
+    // As many names are compared with all others as are reported one by one.
     if (o->index && o->index->searches++ >= SEARCHES_MAX)
         return false;
     for (uint32_t i = 0; i < bind_list_count(list); i++) {

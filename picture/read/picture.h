@@ -1,7 +1,7 @@
 // Images that a scene reads: PNG and JPEG (decoded by libpng and libjpeg-turbo), OpenEXR (by
 // OpenEXRCore), Radiance HDR.
 //
-// Pixels are kept as their file has them, without alpha: three or six bytes a pixel, four of an HDR image,
+// Pixels are kept as their file has them, without alpha: three or six bytes per pixel, four of an HDR image,
 // three floats of an OpenEXR image.
 // Ownership: pixels on the heap, freed by picture_finish; pictures in the store belong to the store.
 // Thread safety: a picture is immutable once decoded.

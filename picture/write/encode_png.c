@@ -66,7 +66,7 @@ static void on_free(png_structp png, png_voidp memory) {
     free(memory);
 }
 
-// What stands before and after the deflated pieces (RFC 1950): a window of 32 KiB, and the sum of all bytes.
+// What comes before and after the deflated pieces (RFC 1950): a window of 32 KiB, and the sum of all bytes.
 enum {
     STREAM_HEAD = 2,
     STREAM_END = 4

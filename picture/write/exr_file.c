@@ -161,7 +161,7 @@ static exr_result_t keep(exr_encode_pipeline_t *pipeline) {
     return EXR_ERR_UNKNOWN;
 }
 
-// The library says it only of the chunk that is to be written next.
+// The library says it only of the chunk that is written next.
 static exr_chunk_info_t info_of(const struct encoding *e, size_t i) {
     exr_chunk_info_t info = e->first;
     const uint32_t begin = (uint32_t)i * (uint32_t)e->lines, left = e->file->height - begin;

@@ -21,7 +21,7 @@ enum image_compression {
     IMAGE_UNCOMPRESSED,
 };
 
-// How a file is to be coded, where its format leaves a choice; zeros: by default.
+// How a file is coded, where its format leaves a choice; zeros: by default.
 struct image_coding {
     unsigned bits;        // per channel: PNG 8 or 16, OpenEXR 16 or 32; 0: 8, and 32
     unsigned quality;     // 1 to 100, of JPEG and WebP, where 100 is lossless; 0: IMAGE_QUALITY

@@ -5,7 +5,7 @@
 // Input: a name for each number, and the hits of each sample. Output: ranks of float pairs (the hash of a
 // name as a float; its coverage, 0..1), and the key of the metadata. A pixel holds MATTE_RANKS names, those
 // with the largest coverage; where its samples see more than MATTE_KEPT, the coverage of rare ones is lost.
-// Samples that see the background are no name's. Errors: false where memory ends. Ownership: matte_finish
+// Samples that see the background belong to no name. Errors: false where memory ends. Ownership: matte_finish
 // frees, and accepts a zeroed one. Thread safety: plain data.
 #ifndef GLINT_RENDER_AOV_MATTE_H
 #define GLINT_RENDER_AOV_MATTE_H

@@ -15,7 +15,7 @@ struct parts_fault {
 };
 
 // Whether the parts, of which the heads are enough, are of one picture, and cover all its pixels and samples
-// once. `order` gets their numbers in the order in which they are to be added. false: fault->text says why;
+// once. `order` gets their numbers in the order in which they must be added. false: fault->text says why;
 // where that is empty, there is no memory.
 bool parts_fit(const struct part *parts, uint32_t count, uint32_t *order, struct parts_fault *fault);
 // What two parts of one picture must share, as words that stand between their names ("is of another scene

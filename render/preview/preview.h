@@ -60,7 +60,7 @@ struct preview;
 // `devices` may be NULL: the reference draws. It outlives the preview. NULL: no memory.
 struct preview *preview_create(const struct preview_devices *devices);
 void preview_destroy(struct preview *preview);
-// *picture is to be finished by preview_picture_finish, whatever the state.
+// *picture must be finished by preview_picture_finish, whatever the state.
 enum preview_state preview_draw(struct preview *preview, const struct preview_wish *wish,
                                 const atomic_bool *cancelled, struct preview_picture *picture);
 void preview_picture_finish(struct preview_picture *picture);

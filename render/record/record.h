@@ -22,7 +22,7 @@ enum record_field {
 };
 extern const char *const record_keywords[RECORD_FIELDS];
 
-// What `glint render` is told: all that verify needs to render again.
+// What `glint render` is asked for: all that verify needs to render again.
 struct record_command {
     str scene;  // as the user wrote it; "-": standard input
     str camera; // empty: the first
@@ -63,12 +63,12 @@ struct record_read {
 void record_find(str file, struct record_read *out);
 // Reads a command that record_texts wrote. false: it is not one.
 bool record_read_command(str text, struct arena *arena, struct record_command *out);
-// The same of texts that are to be written, and of the line that a part carries (render/parts): "Software:
+// The same of texts that will be written, and of the line that a part carries (render/parts): "Software:
 // ...", a tab, "Scene hash: ..." and so on.
 void record_of_texts(const struct image_texts *texts, struct record_read *out);
 void record_of_line(str line, struct record_read *out);
 // Whether two records are of one picture: the same scene, version, device and settings, coded alike. Where
-// the scene is and an audit's note do not count. false also where one is no record.
+// the scene is and an audit's note do not count. false also where one is not a record.
 bool record_same(const struct record_read *a, const struct record_read *b, struct arena *arena);
 
 #endif

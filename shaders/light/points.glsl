@@ -18,7 +18,7 @@ uvec2 point_bits_at(uint key) {
     return uvec2(point_first(order, seed), point_second(order, seed));
 }
 
-// Where what has the key is sampled. Both in 0..1; the middle where the picture has one sample a pixel.
+// Where what has the key is sampled. Both in 0..1; the middle where the picture has one sample per pixel.
 vec2 point_at(uint key) {
     uint bits = POINT_BITS;
     uint seed = point_seed(key, point_sample, bits);

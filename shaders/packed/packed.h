@@ -6,7 +6,7 @@
 // it has is the distance back to it, and any other (a type, a constant, a function that it calls) is the next
 // of its outer ids. What is left is the same in all modules that have the function, and is stored once.
 //
-// A module has bytes of its own: what stands before its first function, the outer ids of each function, and
+// A module has bytes of its own: what comes before its first function, the outer ids of each function, and
 // the order of its functions. Its functions are in groups: those that the same modules have. A module's
 // functions are numbered through its groups. Bytes hold seven bits of a number each, the lowest first.
 //
@@ -25,7 +25,7 @@ enum {
 // The parts that follow each other in the bytes of a module, or of a group.
 enum packed_part {
     PACKED_HEADS, // of each instruction its opcode and its length
-    PACKED_PLAIN, // words that are no ids; types
+    PACKED_PLAIN, // words that are not ids; types
     PACKED_REFS,  // ids
     PACKED_CODE_PARTS,
     PACKED_SIZES = PACKED_CODE_PARTS, // of a group: how many bytes of each part above are each function's

@@ -30,7 +30,7 @@ struct packed_function {
 struct unpacking {
     struct packed_bytes own[PACKED_PARTS];
     uint32_t *words;
-    size_t count, at;        // of words: how many there are to be, and how many there are
+    size_t count, at;        // of words: how many there must be, and how many there are
     uint32_t *local, *outer; // ids of a function: room for `count` each
     size_t locals, outers;
     uint32_t newest; // the largest id so far

@@ -228,6 +228,10 @@ refuses english README.md 'A scene.' 'It has not 8 bits.'
 plant README.md 'Radiance files that this is' 'no part of.'
 finds english 'README.md:2: "is no part"'
 rm README.md
+refuses english core/b.c '// A colour behind a surface.' '// This is no list.'
+plant core/b.c '// The fault that was' '// told at its place.'
+finds english 'core/b.c:2: "was told"'
+rm core/b.c
 refuses english tools/b.sh 'echo "this is no scene"'
 
 fresh

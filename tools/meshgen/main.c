@@ -27,8 +27,8 @@ enum {
 struct product {
     const char *name;
     const char *title;
-    void (*generate)(struct mesh *mesh); // NULL where it is no mesh
-    bool (*write)(struct strbuf *bytes); // of what is no mesh
+    void (*generate)(struct mesh *mesh); // NULL where it is not a mesh
+    bool (*write)(struct strbuf *bytes); // of what is not a mesh
     const char *mtllib;
 };
 

@@ -30,7 +30,7 @@ static int compare_edges(const void *left, const void *right) {
     return a->a != b->a ? (a->a > b->a) - (a->a < b->a) : (a->b > b->b) - (a->b < b->b);
 }
 
-// canonical[v] is the first vertex, in order of position, that stands where v stands.
+// canonical[v] is the first vertex, in order of position, at the same place as v.
 static bool merge_positions(const struct mesh *mesh, int *canonical) {
     struct placed *order = malloc((size_t)mesh->vertex_count * sizeof *order);
     if (!order)

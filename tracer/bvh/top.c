@@ -1,5 +1,5 @@
 // All ranges of a level are cut at once: their items, in pieces of a fixed size, are put into bins, the
-// planes are chosen, and the pieces are parted into a second array, where the next level begins. So each
+// planes are chosen, and the pieces are sorted into a second array, where the next level begins. So each
 // level reads the items twice and writes them once, and pieces do not depend on threads.
 #include "tracer/bvh/top.h"
 

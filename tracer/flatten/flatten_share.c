@@ -74,7 +74,7 @@ static int compare_numbers(const void *a, const void *b) {
     return x < y ? -1 : x > y;
 }
 
-// How many of the sorted heights are no greater than `most`.
+// How many of the sorted heights are at most `most`.
 static uint32_t count_lower(const double *sorted, uint32_t count, double most) {
     uint32_t low = 0, high = count;
     while (low < high) {

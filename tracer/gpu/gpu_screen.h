@@ -11,7 +11,7 @@
 
 struct gpu_screen;
 
-// `instance` is a VkInstance, `surface` points to the VkSurfaceKHR that is to be made. false: it was not.
+// `instance` is a VkInstance, `surface` points to the VkSurfaceKHR that is made. false: it was not.
 typedef bool gpu_make_surface(void *context, void *instance, void *surface);
 
 struct gpu_screen *gpu_screen_create(struct gpu *gpu, gpu_make_surface *make, void *context);

@@ -178,7 +178,7 @@ enum render_result renderer_render(struct renderer *renderer, const struct view_
 // there was none.
 const struct render_estimate *renderer_estimate(const struct renderer *renderer);
 // The same until `limit` ends it: the picture is that of statistics->samples samples, bit for bit. It needs
-// 32 bytes a pixel more.
+// 32 bytes per pixel more.
 enum render_result renderer_render_until(struct renderer *renderer, const struct view_camera *camera,
                                          float *rgb, const struct render_progress *progress,
                                          const struct render_limit *limit,

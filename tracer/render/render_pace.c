@@ -84,7 +84,7 @@ static bool dispatch_ranks(struct renderer_frame *run, struct gpu_program *progr
         clamp(renderer_rank_begin(run->renderer, block, RENDERER_RANK_REFRACTS + 1), begin, end);
     struct gpu *gpu = run->renderer->gpu;
     block->spread = spread_of(gpu, middle - begin);
-    // One dispatch, where nothing is to be spread.
+    // One dispatch, where nothing must be spread.
     const uint32_t next = block->spread > 1 ? middle : begin;
     const bool first = begin == next || dispatch(gpu, program, workgroup, block, begin, next, next == end);
     block->spread = 1;

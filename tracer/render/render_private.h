@@ -244,7 +244,7 @@ uint32_t renderer_rank_begin(const struct renderer *renderer, const struct dispa
 // Runs paths from block->path_begin on and sets block->path_end and grid_width: at most to `end`, and no more
 // than should be over in a twentieth of a second by what dispatches of this kind took before. Waits for them;
 // *seconds is the device's time. `workgroup` is the program's.
-// `run`, unless NULL, is told before the dispatch is submitted: renderer_follow_pass.
+// `run`, unless NULL, follows the dispatch from before it is submitted: renderer_follow_pass.
 bool renderer_run_paths(struct renderer *renderer, struct gpu_program *program, enum renderer_pass pass,
                         uint32_t workgroup, struct dispatch_block *block, uint32_t end,
                         struct renderer_frame *run, double *seconds);

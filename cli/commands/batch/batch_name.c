@@ -18,14 +18,14 @@ static str scene_name(str path) {
     return str_slice(base, 0, end);
 }
 
-// What may stand in a file's name.
+// What a file's name may contain.
 static void add_safe(struct strbuf *out, str text) {
     for (size_t i = 0; i < text.len; i++)
         strbuf_char(out, strchr("/\\ \t\"'[]{}*?", text.ptr[i]) ? '-' : text.ptr[i]);
 }
 
-// The words that follow '%'; digits before 'd' are its width. Returns what is after it; NULL: there is no
-// such word.
+// The words that follow '%'; digits before 'd' are its width. Returns what is after it; NULL: none has
+// this name.
 static const char *add_word(const struct batch_job *job, const char *p, struct strbuf *out) {
     if (*p == '%')
         strbuf_char(out, '%');

@@ -68,7 +68,7 @@ struct batch_run {
     struct batch_counts counts;
     const struct batch_job *first_failed;
     int worst; // exit code of those that failed
-    // Findings that were told: of which scene, load, and how many.
+    // Findings that were reported: of which scene, load, and how many.
     const char *told_scene;
     uint32_t told_load, told_count;
     bool is_load_good, is_pending;

@@ -131,7 +131,7 @@ static bool is_other_load(const struct batch_run *run, uint32_t job) {
 
 // ---- one picture
 
-// Warnings and notes are told once for a scene, and again where there are others.
+// Warnings and notes are reported once for a scene, and again where there are others.
 static void tell_findings(struct batch_run *run, const struct batch_job *job, bool failed) {
     struct session *session = live_findings(&run->live);
     if (!session)

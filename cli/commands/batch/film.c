@@ -252,7 +252,7 @@ static int put_ffmpeg(struct film *film, str bytes) {
     return error == EPIPE ? CLI_FILE : error ? cannot_write(film, error) : CLI_OK;
 }
 
-// Waits for its end; false: it was told why there is no film.
+// Waits for its end; false: the reason why there is no film was reported.
 static bool is_made(struct film *film) {
     int status = 0;
     while (waitpid(film->child, &status, 0) < 0 && errno == EINTR)

@@ -64,8 +64,8 @@ const char *farm_script_name(enum farm_engine engine);
 // farm_file.c: the plan as a file of the folder, and back.
 int farm_save(struct cli *cli, const struct farm_plan *plan, str script);
 int farm_load(struct cli *cli, const char *folder, struct farm_plan *plan);
-// farm_read.c: a plan from the text of its file, in which its strings lie and which is changed; false if it
-// is none that farm_save has written.
+// farm_read.c: a plan from the text of its file, in which its strings lie and which is changed; false if
+// farm_save did not write it.
 #define FARM_PLAN_HEAD "glint farm 1\n"
 bool farm_plan_read(char *text, struct farm_plan *plan);
 // A picture's name in a frame, and that of a part.

@@ -15,7 +15,7 @@ static str manual_next_word(const char *text, size_t *at) {
     const size_t length = strcspn(text, " ");
     const str all = {text, length};
     size_t end = *at;
-    // "FILE|..." are no words, and one word alone is a name.
+    // "FILE|..." are not words, and one word alone is a name.
     if (!memchr(text, '|', length) || *at >= length)
         return (str){text, 0};
     while (end < length && is_word_letter(text[end]))

@@ -1,4 +1,4 @@
-// Whether a picture or part that is to be written is there already: --skip-done.
+// Whether a picture or part that must be written is there already: --skip-done.
 //
 // A file counts if it is whole and says of itself what the new one would say (render/record): the same scene
 // by its hash, version of glint, device, settings and size; of a part also the same pixels. Anything else, a

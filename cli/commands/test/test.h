@@ -77,7 +77,7 @@ struct test_run {
 // test_plan.c: an exit code.
 int test_plan(struct test_run *run);
 
-// test_render.c: makes the pictures one after another; `judge` is told of each as a file in memory, which is
+// test_render.c: makes the pictures one after another; `judge` gets each as a file in memory, which is
 // gone afterwards, or of none where a case failed. An exit code.
 struct test_made {
     struct strbuf file;

@@ -244,7 +244,7 @@ static int render(struct verify *v, struct image_display *display) {
     cli->operands[0] = (char *)v->scene;
     const int status = render_whole(&job);
     *display = job.display;
-    // One with faulty pixels is a picture, and its errors were told.
+    // One with faulty pixels is a picture, and its errors were reported.
     return v->made.len ? CLI_OK : status;
 }
 

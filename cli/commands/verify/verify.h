@@ -1,4 +1,4 @@
-// glint verify: what is compared, and how it is told. Private to cli/verify.
+// glint verify: what is compared, and how it is reported. Private to cli/verify.
 //
 // Ownership: text lies in cli->arena or in the pictures' bytes. Thread safety: as cli.h.
 #ifndef GLINT_CLI_COMMANDS_VERIFY_VERIFY_H

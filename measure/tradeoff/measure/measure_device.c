@@ -177,8 +177,8 @@ enum tradeoff_status device_picture(struct measuring *s, struct row *row, float 
     return status;
 }
 
-// Rays, nodes and items of one sample a pixel, times the samples: what counts the same for all samples needs
-// no further frames. Where pixels end by their error, those of all.
+// Rays, nodes and items of one sample per pixel, times the samples: what counts the same for all samples
+// needs no further frames. Where pixels end by their error, those of all.
 enum tradeoff_status device_count(struct measuring *s, struct row *row) {
     struct setting counted = row->setting;
     struct renderer *renderer;

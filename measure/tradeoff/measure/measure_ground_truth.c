@@ -44,7 +44,7 @@ enum tradeoff_status ground_truth_picture(struct measuring *s, const struct refe
 
 // ---- what it would take
 
-// The whole picture, smaller, one sample a pixel.
+// The whole picture, smaller, one sample per pixel.
 static struct reference_settings pilot_settings(const struct measuring *s) {
     const double pixels = (double)s->base.width * s->base.height;
     const double wanted = fmin(fmax(pixels / PILOT_PART, PILOT_PIXELS_LEAST), PILOT_PIXELS);

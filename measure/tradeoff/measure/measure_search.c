@@ -1,10 +1,10 @@
 // The rows of a search, and what they are compared with.
 //
-// A picture's error by chance is told by its own samples: the mean of all of them and the mean of those that
-// were added last differ by about as much as the first from the truth. What no number of samples shows is
-// told by a small picture: what the reference finds beyond the device at a few samples, rays that max_depth
-// and min_weight cut, and rounding. Between two tracers of the same rays there is no noise of sampling, so
-// that a few do.
+// A picture's error by chance is estimated from its own samples: the mean of all of them and the mean of
+// those that were added last differ by about as much as the first from the truth. What no number of samples
+// shows, a small picture does: what the reference finds beyond the device at a few samples, rays that
+// max_depth and min_weight cut, and rounding. Between two tracers of the same rays there is no noise of
+// sampling, so that a few do.
 #include "core/heap.h"
 #include "measure/tradeoff/measure/measure.h"
 #include "measure/tradeoff/plan/plan_search.h"

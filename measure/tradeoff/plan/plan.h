@@ -62,7 +62,7 @@ struct plan_ground_truth_input {
     uint32_t pilot_count; // at most PLAN_PILOTS_MAX
 };
 
-// Rays a sample of the pilot to be counted next; 0: what is known is enough.
+// Rays per sample of the pilot to be counted next; 0: what is known is enough.
 uint64_t plan_next_pilot(const struct plan_ground_truth_input *input);
 
 struct plan_ground_truth {

@@ -13,7 +13,7 @@
 
 enum {
     SEARCH_ROWS_MAX = 64,
-    SEARCH_PROBE = 0, // samples of a row that is no picture: its `floor` is wanted
+    SEARCH_PROBE = 0, // samples of a row that is not a picture: its `floor` is wanted
 };
 
 struct plan_search_input {
@@ -56,7 +56,7 @@ struct plan_search_probe {
     uint32_t width, height, samples;
 };
 struct plan_search_probe plan_search_probe(const struct setting *base, double rays);
-// Rays a sample of the pilot to be counted next; 0: what is known is enough. `bearable`: a change that does
+// Rays per sample of the pilot to be counted next; 0: what is known is enough. `bearable`: a change that does
 // not matter.
 uint64_t plan_search_pilot(const struct plan_search_pilot *pilots, uint32_t count, double rays_most,
                            uint64_t segments_most, double bearable);

@@ -37,7 +37,7 @@ enum knob {
     // What the picture has is left out, as a bit of setting.without.
     KNOB_CLEAR_SHADOWS,
     KNOB_OCCLUSION,
-    KNOB_SOFT_LIGHTS, // these four are no one setting of a file: never chosen
+    KNOB_SOFT_LIGHTS, // these four are not one setting of a file: never chosen
     KNOB_LENS,
     KNOB_ROUGHNESS,
     KNOB_FILTER,
