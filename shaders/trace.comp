@@ -1,10 +1,8 @@
 // The kernel that makes pictures: follows a sample's path through the scene, Whitted 1980.
 //
-// One loop, a ray an iteration: the path's own ray, or a shadow ray of the last hit. lavapipe runs 8
-// invocations as a vector in which an `if` never skips and only the end of a loop does: so lanes whose
-// chain of reflections has ended wait after the inner loop, where the background is looked up once for
-// all, and then take up the refracted rays that wait on the stack. There too rays are traced once more that
-// rounding leaves undecided.
+// One loop, with one ray per iteration: the path's own ray, or a shadow ray of the last hit (follow_now.glsl, and
+// follow_later.glsl for lavapipe). Lanes whose chain of reflections has ended wait after the inner loop, where the
+// background is looked up once for all, and then take up the refracted rays that wait on the stack.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -300,15 +298,6 @@ bool decide_exactly(path_state p, bool own, ray_start shadow_start, light_ray sh
     return retrace_triangles(start, aim, doubts, !own && !shines(), hit, iterations);
 }
 
-// The same at once: GOES_ON with what the ray hits, or SUSPENDED. `sphere`: what it hits without triangles.
-uint decide_here(path_state p, bool own, ray_start start, light_ray shadow, ray_doubts doubts, hit_record sphere,
-                 bool fresh, inout hit_record hit, inout uint iterations) {
-    uint state = room_for_exact(fresh, iterations);
-    if (state == UNDECIDED && decide_exactly(p, own, start, shadow, doubts, sphere, iterations))
-        hit = sphere;
-    return state == SUSPENDED ? SUSPENDED : GOES_ON;
-}
-
 // From a surface: to its next light, or on with the path.
 uint go_on(uint slot, inout path_state p, surface s, ray_start start, inout uint phase, inout light_ray shadow,
            inout uint iterations, inout uint fault) {
@@ -416,69 +405,11 @@ void end_chain(uint slot, inout path_state p, inout uint state, inout uint phase
     }
 }
 
-// Follows a path until it ends, or until its slice does. A ray that is open is decided after the inner loop on lavapipe, which
-// runs every branch for every ray; within it on a GPU, whose lanes would wait for all others. A kernel in which paths begin
-// (BEGINS) saves the path before such a ray.
-uint follow(uint slot, inout path_state p, inout uint fault) {
-    uint iterations = 0u, state = GOES_ON, phase = p.hit.item == NO_ITEM ? PHASE_RAY : PHASE_HIT;
-    bool fresh = true, decided = false; // no ray was finished in this slice; the ray is
-    surface s;
-    ray_start start = exact_start(REAL3(0.0)); // of shadow rays
-    light_ray shadow = light_ray(vec3(0.0), start.at, 0.0, start.at);
-    hit_record held = p.hit, rough = p.hit; // UNDECIDED: the spheres' hit, and the first search's; decided: the ray's
-    do {
-        ray_doubts doubts = no_doubts();
-        do {
-            iterations += segment_iterations();
-            bool own = phase == PHASE_RAY;
-            bool wanted = phase == PHASE_SHADOW || (own && p.depth <= frame.max_depth);
-            bool traced = wanted && (BEGINS || !decided);
-            if (HAS_SLICES && traced && is_late(fresh, iterations)) {
-                state = SUSPENDED;
-                break;
-            }
-            hit_record hit = hit_record(!traced ? -FAR_AWAY : own ? FAR_AWAY : shadow.t_max, 0.0, 0.0, NO_ITEM, 0u);
-            ray_start from = ray_from(p, own, start);
-            hit_record sphere = hit;
-            REAL3 to = own ? p.direction : shadow.direction;
-            bool open = trace_ray(from, to, traced, !own && !shines(), hit, sphere, doubts, iterations);
-            if (HAS_LONG_RAYS && long_stopped != TREE_NONE) {
-                state = SUSPENDED;
-                break;
-            }
 #ifdef FETCH_TEXELS
-            if (HAS_TRIANGLES && traced && open) {
-                state = BEGINS ? SUSPENDED : room_for_exact(fresh, iterations);
-                held = sphere;
-                rough = hit;
-                if (state != GOES_ON)
-                    break;
-            }
+#include "follow_later.glsl"
 #else
-            if (BEGINS && HAS_TRIANGLES && traced && open)
-                state = SUSPENDED;
-            else if (HAS_TRIANGLES && traced && open)
-                state = decide_here(p, own, from, shadow, doubts, sphere, fresh, hit, iterations);
-            if (state == SUSPENDED)
-                break;
+#include "follow_now.glsl"
 #endif
-            if (!BEGINS && decided)
-                hit = held;
-            decided = false;
-            state = arrive_and_go_on(slot, p, wanted, hit, s, start, phase, shadow, iterations, fresh, fault);
-        } while (state == GOES_ON);
-#ifdef FETCH_TEXELS
-        if (HAS_TRIANGLES && !BEGINS && state == UNDECIDED) {
-            if (!decide_exactly(p, phase == PHASE_RAY, ray_from(p, false, start), shadow, doubts, held, iterations))
-                held = rough;
-            decided = true;
-            state = GOES_ON;
-        }
-#endif
-        end_chain(slot, p, state, phase);
-    } while (state == GOES_ON);
-    return state;
-}
 
 layout(constant_id = CONSTANT_LISTED) const bool LISTED = false;
 

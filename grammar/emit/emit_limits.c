@@ -55,8 +55,8 @@ static const char closing[] =
     "share a\n"
     "mesh, and `glint inspect` says what they share and how large each buffer is. All of them together may "
     "show\n"
-    "2^30 - 3 triangles; more are an error of `check`, too. The reference (`--stats`, "
-    "`--audit`,\n"
+    "2^30 - 3 triangles; more are an error of `check`, too. The reference "
+    "(`--audit`,\n"
     "`--device reference`) shares them too; of what is not shared it takes 280 bytes a triangle.\n";
 
 // The anchor that Markdown makes from a heading.
