@@ -141,11 +141,12 @@ function(glint_room_includes target room)
   endforeach()
 endfunction()
 
-# glint_room([FAST] [EXCEPT file.c ...] [SOURCES generated.c ...] [LIBS external ...]): the library of the room in this
+# glint_room([FAST|SMALL] [EXCEPT file.c ...] [SOURCES generated.c ...] [LIBS external ...]): the library of the room in this
 # folder: `glint_` and its path with underscores. It holds every C file of the folder, and of folders inside that are
 # no rooms, except those of the names after EXCEPT. FAST: where time is spent, a tenth of it is worth more text.
+# SMALL: what runs once for a command line or a key that is pressed.
 function(glint_room)
-  cmake_parse_arguments(R "FAST" "" "EXCEPT;SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(R "FAST;SMALL" "" "EXCEPT;SOURCES;LIBS" ${ARGN})
   file(RELATIVE_PATH room ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   string(REPLACE "/" "_" name glint_${room})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/*.c)
@@ -167,6 +168,9 @@ function(glint_room)
   glint_room_includes(${name} ${room})
   if(R_FAST AND NOT EMSCRIPTEN)
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O3>)
+  endif()
+  if(R_SMALL AND NOT EMSCRIPTEN)
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-Os>)
   endif()
   target_link_libraries(${name} PUBLIC ${libs} ${R_LIBS})
 endfunction()
