@@ -28,6 +28,7 @@ tells 'a parenthesis' 2 "'\\)' is missing" "$glint" render scene.yaml --frames 0
 tells 'one name' 2 'more than one of them' "$glint" render scene.yaml --frames 0..3 --set "$turn" -o out.png
 tells 'an unknown word in a name' 2 'no word that is known' "$glint" render scene.yaml --frames 0..3 --set "$turn" -o 'o.%x.png'
 tells 'a sweep of nothing' 2 'sweep takes PATH' "$glint" render scene.yaml --sweep materials.blue
+tells 'a count of rays' 2 'would have no effect' "$glint" render scene.yaml other.yaml --stats --count-rays
 tells 'an audit' 2 'would have no effect' "$glint" render scene.yaml other.yaml --audit
 tells 'the reference' 2 'not by the reference' "$glint" render scene.yaml other.yaml --device reference
 tells 'a list that is not there' 3 'none.txt:1:1: error: cannot be read' "$glint" render --list none.txt

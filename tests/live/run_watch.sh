@@ -33,7 +33,7 @@ tells 'not by the reference' 2 'not by the reference' "$glint" render scene.yaml
 tells 'not to standard output' 2 'name one with -o' "$glint" render scene.yaml --watch -o -
 tells 'not of standard input' 2 'standard input' "$glint" render - --watch -o out.png
 tells 'not of all cameras' 2 'one camera' "$glint" render scene.yaml --watch --camera all -o out.png
-for option in '--repeat 3' '--time 2' '--audit'; do
+for option in '--repeat 3' '--time 2' '--audit' '--stats --count-rays'; do
     # shellcheck disable=SC2086 -- an option and its value
     tells "not with $option" 2 'would have no effect' "$glint" render scene.yaml --watch $option
 done

@@ -25,6 +25,7 @@ static const struct cli_no_effect no_place[] = {
     {"max-time", NULL},
     {"audit", "an audit is of one picture"},
     {"max-off", NULL},
+    {"count-rays", "rays are counted for one picture"},
     {"aov", "many pictures are written without what else is known of their pixels"},
     {"samples-from", "many pictures have all their samples; --tile and --region go with them"},
     {"samples-to", NULL},

@@ -43,6 +43,7 @@ static const struct cli_no_effect no_place[] = {
     {"max-time", NULL},
     {"audit", "--watch makes no audits; 'glint render' without it does"},
     {"max-off", NULL},
+    {"count-rays", "--watch counts no rays; 'glint render' without it does"},
     {"aov", "--watch writes only the picture"},
     {0},
 };
