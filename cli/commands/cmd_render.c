@@ -311,7 +311,6 @@ static int run_job(struct render_job *job, struct asset_store *store) {
 static bool has_useless_option(struct cli *cli) {
     bool exact = cli_device_is_reference(cli);
     return (exact && cli_has_no_effect(cli, "repeat", "it times frames of a device, not of the reference")) ||
-           (exact && cli_has_no_effect(cli, "count-rays", "the reference counts them anyway")) ||
            (!exact && !cli_has_study(cli) &&
             cli_has_no_effect(cli, "no-cache", "the cache is that of '--device reference'"));
 }

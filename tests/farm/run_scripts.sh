@@ -61,6 +61,7 @@ for engine in slurm parallel; do
 done
 expect 'a folder that is taken' 2 - 'holds the plan of a farm' "$glint" farm slurm scene.yaml --chunk 2 --frames 0..3 --set "$turn" --folder 'f slurm'
 expect 'or overwritten' 0 - '4 tasks of 1 frame' "$glint" farm slurm scene.yaml --chunk 1 --frames 0..3 --set "$turn" --folder 'f slurm' --force
+expect 'pictures in the folder itself' 0 - '4 tasks of 1 frame' "$glint" farm slurm scene.yaml --chunk 1 --frames 0..3 --set "$turn" --folder own -o 'own/%02d.png'
 
 # ---- more tasks than an array takes: several arrays, of which each begins at a task of its own
 mkdir fake
