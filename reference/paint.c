@@ -163,7 +163,7 @@ static struct place place_at(const struct spot *spot) {
 }
 
 // How near to a sphere's axis differences are taken, radius 1.
-#define NEAREST_AXIS 1e-6
+#define NEAREST_AXIS 1e-12
 
 // On a sphere, by places that are not nearer to its axis.
 static double off_axis(struct spot *spot) {
@@ -176,6 +176,11 @@ static double off_axis(struct spot *spot) {
     return NEAREST_AXIS;
 }
 
+// The angle from the pole at +y, or from that at -y: near it, the angle has all its digits.
+static double from_pole(vec3 arm, double side) {
+    return atan2(hypot(arm.x, arm.z), side * arm.y);
+}
+
 // By the difference of two places, the shorter way around, where a pixel covers no longitude twice.
 static struct place change_on_sphere(const struct spot *at, vec3 axis) {
     struct spot spot = *at;
@@ -184,8 +189,9 @@ static struct place change_on_sphere(const struct spot *at, vec3 axis) {
     const double step = STEP * around / length, less = fmin(1, around / all);
     const struct spot before = moved(&spot, axis, -step), after = moved(&spot, axis, step);
     const struct place a = place_at(&before), b = place_at(&after);
-    const double u = b.u - a.u - floor(b.u - a.u + 0.5);
-    return (struct place){u * less / (2 * step), (b.v - a.v) / (2 * step)};
+    const double u = b.u - a.u - floor(b.u - a.u + 0.5), side = copysign(1, spot.arm.y);
+    const double v = side * (from_pole(before.arm, side) - from_pole(after.arm, side)) / PI;
+    return (struct place){u * less / (2 * step), v / (2 * step)};
 }
 
 // How coordinates change along an axis.

@@ -64,13 +64,13 @@ float fresnel_share(REAL n, REAL m, REAL c, REAL k, bool pane) {
 }
 
 // The cones of rays that leave a surface: its normal turns the more the wider the cone is there.
-RAY_CONE mirrored_cone(surface s, RAY_CONE cone) { return vec2(s.width, cone.y + 2.0 * s.bend * s.width); }
+RAY_CONE mirrored_cone(surface s, RAY_CONE cone) { return REAL2(s.width, cone.y + 2.0 * s.bend * s.width); }
 
 RAY_CONE bent_cone(surface s, RAY_CONE cone, REAL3 from, REAL3 to) {
-    float eta = float(index_ratio(s));
-    float along = float(dot3(to, s.shading)) - eta * float(dot3(from, s.shading));
+    REAL eta = index_ratio(s);
+    REAL along = dot3(to, s.shading) - eta * dot3(from, s.shading);
     bool straight = !s.solid || eta == 1.0;
-    return vec2(s.width, straight ? cone.y : eta * cone.y + along * s.bend * s.width);
+    return REAL2(s.width, straight ? cone.y : eta * cone.y + along * s.bend * s.width);
 }
 
 // What leaves a surface of a ray.

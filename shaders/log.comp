@@ -42,7 +42,7 @@ log_ray load_ray(uint at) {
     ray_start start = ray_start(REAL3(number_of(a.xy), number_of(a.zw), number_of(b.xy)), number_of(d.zw), b.w,
                                 number_of(e.xy), number_of(e.zw));
     return log_ray(start, REAL3(number_of(c.xy), number_of(c.zw), number_of(d.xy)),
-                   uintBitsToFloat(states[at + LOG_CONE].xy),
+                   REAL2(number_of(states[at + LOG_CONE].xy), number_of(states[at + LOG_CONE].zw)),
                    media_set(states[at + LOG_INSIDE], states[at + LOG_INSIDE + 1u]),
                    point_key(states[at + LOG_KEY].x, states[at + LOG_KEY].y));
 }
@@ -55,9 +55,10 @@ void write_camera_ray() {
     states[2] = uvec4(bits_of(d.x), bits_of(d.y));
     states[3] = uvec4(bits_of(d.z), 0u, 0u);
     states[4] = uvec4(0u);
-    states[LOG_CONE] = uvec4(0u);
+    RAY_CONE cone = REAL2(0.0);
     if (HAS_FOOTPRINT)
-        states[LOG_CONE] = uvec4(floatBitsToUint(camera_cone(d)), 0u, 0u);
+        cone = camera_cone(d);
+    states[LOG_CONE] = uvec4(bits_of(cone.x), bits_of(cone.y));
     states[LOG_INSIDE] = camera_media().a;
     states[LOG_INSIDE + 1] = camera_media().b;
     states[LOG_KEY] = uvec4(point_root(point_pixel.x, point_pixel.y), POINT_SAME, 0u, 0u);
@@ -84,7 +85,7 @@ uint material_of(hit_record hit) {
 }
 
 void write_ray(uint at, ray_start start, REAL3 direction, RAY_CONE cone) {
-    pixels[at + LOG_CONE] = uvec4(floatBitsToUint(cone), 0u, 0u);
+    pixels[at + LOG_CONE] = uvec4(bits_of(cone.x), bits_of(cone.y));
     write3(at, start.at, uvec2(0u, start.left));
     write3(at + 2u, direction, bits_of(start.slack));
     pixels[at + 4u] = uvec4(bits_of(start.b1), bits_of(start.b2));

@@ -4,7 +4,7 @@
 #define GLINT_SHADERS_LOG_H
 
 /* STATE, a ray: its origin, LOG_BLIND or 0, item of the triangle that it leaves; its direction, unit, bound
-   of the origin's error; b1, b2 of the place on that triangle (ray_start); its cone, floats; what it is
+   of the origin's error; b1, b2 of the place on that triangle (ray_start); its cone; what it is
    inside (media.glsl); key of the ray from whose hit it leaves, and how (points.h). */
 #define LOG_RAY_WORDS 9
 #define LOG_CONE      5

@@ -28,7 +28,7 @@ path_state begin_path(camera_ray ray) {
     path_state p;
     p.start = exact_start(ray.at);
     p.direction = ray.direction;
-    p.cone = vec2(0.0);
+    p.cone = REAL2(0.0);
     if (HAS_FOOTPRINT)
         p.cone = camera_cone(ray.direction);
     p.throughput = 1.0;

@@ -92,12 +92,12 @@ vec3 get_low(uint slot) {
 // With HAS_FOOTPRINT, in a word of their own.
 void put_cone(uint slot, uint word, RAY_CONE cone) {
     if (HAS_FOOTPRINT)
-        states[state_word(slot, word)] = uvec4(floatBitsToUint(cone), 0u, 0u);
+        states[state_word(slot, word)] = uvec4(bits_of(cone.x), bits_of(cone.y));
 }
 RAY_CONE get_cone(uint slot, uint word) {
-    RAY_CONE cone = vec2(0.0);
+    RAY_CONE cone = REAL2(0.0);
     if (HAS_FOOTPRINT)
-        cone = uintBitsToFloat(states[state_word(slot, word)].xy);
+        cone = REAL2(number_of(states[state_word(slot, word)].xy), number_of(states[state_word(slot, word)].zw));
     return cone;
 }
 

@@ -21,8 +21,8 @@ struct surface {
     bool has_diffuse, has_specular;
     float reflection, refraction;
     REAL index;
-    float bend;  // with HAS_FOOTPRINT: how fast the normal turns along it, positive where it bulges to the viewer
-    float width; // and how wide the ray's cone is
+    REAL bend;  // with HAS_FOOTPRINT: how fast the normal turns along it, positive where it bulges to the viewer
+    REAL width; // and how wide the ray's cone is
     bool fresnel;
     float alpha; // with HAS_ROUGHNESS; 0: smooth
     REAL3 micro; // the normal that reflects and refracts then (light/rough.glsl)
@@ -99,7 +99,7 @@ paint_spot begin_spot(REAL t, REAL3 direction, inout surface s) {
     s.bend = 0.0;
     s.width = 0.0;
     if (HAS_FOOTPRINT) {
-        s.width = surface_cone.x + surface_cone.y * float(t);
+        s.width = surface_cone.x + surface_cone.y * t;
         footprint_axes(s.width, direction, s.geometric, spot.axis_along, spot.axis_across);
     }
     return spot;
@@ -123,10 +123,10 @@ void triangle_spot(triangle_record triangle, hit_record hit, REAL2 along, inout 
 }
 
 // How fast the normals turn from corner to corner, the mean over the edges.
-float bend_of(triangle_record triangle, REAL3 n0, REAL3 n1, REAL3 n2) {
+REAL bend_of(triangle_record triangle, REAL3 n0, REAL3 n1, REAL3 n2) {
     REAL3 e0 = triangle.v1 - triangle.v0, e1 = triangle.v2 - triangle.v1, e2 = triangle.v0 - triangle.v2;
     REAL sum = dot3(n1 - n0, e0) / dot3(e0, e0) + dot3(n2 - n1, e1) / dot3(e1, e1) + dot3(n0 - n2, e2) / dot3(e2, e2);
-    return float(sum) / 3.0;
+    return sum / 3.0;
 }
 
 void triangle_surface(hit_record hit, REAL3 direction, inout surface s) {
@@ -155,7 +155,7 @@ void triangle_surface(hit_record hit, REAL3 direction, inout surface s) {
         REAL3 n = load_normal(body, base) * b0 + load_normal(body, base + 1u) * hit.b1 +
                   load_normal(body, base + 2u) * hit.b2;
         if (HAS_FOOTPRINT) {
-            float bend = bend_of(triangle, load_normal(body, base), load_normal(body, base + 1u), load_normal(body, base + 2u));
+            REAL bend = bend_of(triangle, load_normal(body, base), load_normal(body, base + 1u), load_normal(body, base + 2u));
             s.bend = !smooth_shaded ? 0.0 : dot3(n, s.geometric) < 0.0 ? -bend : bend;
         }
         REAL length2 = dot3(n, n);
@@ -184,7 +184,7 @@ void sphere_surface(hit_record hit, REAL3 origin, REAL3 direction, inout surface
     s.solid = true;
     paint_spot spot = begin_spot(hit.t, direction, s);
     if (HAS_FOOTPRINT)
-        s.bend = (s.enters ? 1.0 : -1.0) / float(sphere.radius);
+        s.bend = (s.enters ? 1.0 : -1.0) / sphere.radius;
     if (HAS_PAINT && wants(FEATURE_TEXTURES | FEATURE_FOOTPRINT))
         sphere_spot(outward, sphere.radius, s.width, spot);
     read_material(sphere.shade, sphere.body, REAL2(0.0), spot, s);

@@ -9,10 +9,11 @@ const uint TAPS_MAX = 15u; // odd
 // What the taps of surfaces may add to an iteration: of two images, or of one and a checker; of a surface that light shines through too.
 const uint PAINT_ITERATIONS = HAS_FOOTPRINT ? (HAS_CLEAR_SHADOWS ? 2u : 1u) * (2u * TAPS_MAX + 4u) : 0u;
 
-// How wide a pixel is along a ray: at its start, and what it gains for each length. Negative where rays have crossed.
-#define RAY_CONE vec2
+// How wide a pixel is along a ray: at its start, and what it gains for each length. Negative where rays have crossed. In the
+// kernel's precision, because lenses and mirrors that gather light leave a small difference of large numbers.
+#define RAY_CONE REAL2
 // The cone of the ray whose hit becomes a surface.
-RAY_CONE surface_cone = vec2(0.0);
+RAY_CONE surface_cone = REAL2(0.0);
 
 // Where a surface is hit in its coordinates, and how these change along the two axes of the footprint.
 struct paint_spot {
@@ -24,7 +25,7 @@ struct paint_spot {
 // ---- the footprint
 
 // `width` of the cone, across the ray; `facing`: the surface's normal, towards the ray.
-void footprint_axes(float width, REAL3 direction, REAL3 facing, out REAL3 along, out REAL3 across) {
+void footprint_axes(REAL width, REAL3 direction, REAL3 facing, out REAL3 along, out REAL3 across) {
     REAL cosine = max(-dot3(direction, facing), 1e-6);
     REAL3 flat_direction = direction - facing * dot3(direction, facing);
     bool is_straight = dot3(flat_direction, flat_direction) < 1e-8;
@@ -153,10 +154,11 @@ REAL tap_place(tap_row row, uint i) {
 const float MOST_PIXELS = 1073741824.0;
 
 // Grows by one with each power of two, and evenly between them.
-float level_of(float size, uint count) {
-    float part = size * uintBitsToFloat(0x7f000000u - (floatBitsToUint(size) & 0x7f800000u));
-    float level = float(int(floatBitsToUint(size) >> 23u) - 127) + (part - 1.0);
-    return size > 1.0 ? min(level, float(count) - 1.0) : 0.0;
+REAL level_of(REAL size, uint count) {
+    uint bits = floatBitsToUint(float(size));
+    REAL part = size * uintBitsToFloat(0x7f000000u - (bits & 0x7f800000u));
+    REAL level = REAL(int(bits >> 23u) - 127) + (part - 1.0);
+    return size > 1.0 ? min(level, REAL(count) - 1.0) : REAL(0.0);
 }
 
 // The ellipse of two vectors to its rim that are each other's conjugates, in pixels: its axes do not depend on which two.
@@ -181,9 +183,9 @@ vec3 image_filtered(paint_record p, REAL2 at, REAL2 along, REAL2 across) {
     REAL2 size = REAL2(FETCH(paints, p.levels).yz);
     image_ellipse e = ellipse_of(clamp(along * size, -MOST_PIXELS, MOST_PIXELS), clamp(across * size, -MOST_PIXELS, MOST_PIXELS));
     tap_row row = taps_of(e.longer, max(e.shorter, 1.0));
-    float level = level_of(float(max(e.longer / REAL(TAPS_MAX), e.shorter)), p.level_count);
+    REAL level = level_of(max(e.longer / REAL(TAPS_MAX), e.shorter), p.level_count);
     uint below = uint(level);
-    float share = level - float(below);
+    float share = float(level - REAL(below));
     REAL2 axis = e.axis / size;
     vec3 sum = vec3(0.0);
     // The last level's next is itself: lavapipe computes it for all lanes.
@@ -297,7 +299,7 @@ REAL2 sphere_change(sphere_map map, REAL3 way) {
     return REAL2((map.outward.x * way.z - map.outward.y * way.x) / map.least * (0.5 / REAL_PI), -down * (1.0 / REAL_PI));
 }
 
-void sphere_spot(REAL3 outward, REAL radius, float width, inout paint_spot spot) {
+void sphere_spot(REAL3 outward, REAL radius, REAL width, inout paint_spot spot) {
     REAL around = sqrt(outward.x * outward.x + outward.z * outward.z);
     spot.at = REAL2(0.5 + arctan2(outward.z, outward.x) * (0.5 / REAL_PI), 1.0 - arctan2(around, outward.y) * (1.0 / REAL_PI));
     sphere_map map = sphere_map(outward, REAL2(1.0, 0.0), around, 0.0);
@@ -309,12 +311,13 @@ void sphere_spot(REAL3 outward, REAL radius, float width, inout paint_spot spot)
 
 // ---- cones
 
+// What frame.footprint, a float, is rounded by is a factor of all widths alike: it cancels where they are compared.
 RAY_CONE camera_cone(REAL3 direction) {
-    vec2 cone = vec2(0.0, frame.footprint * float(dot3(direction, CAMERA(forward))));
+    RAY_CONE cone = REAL2(0.0, frame.footprint * dot3(direction, CAMERA(forward)));
     uint projection = frame.projection + OPAQUE_ZERO;
     if (HAS_CAMERA && projection == PROJECTION_ORTHOGRAPHIC)
-        cone = vec2(frame.footprint, 0.0);
+        cone = REAL2(frame.footprint, 0.0);
     else if (HAS_CAMERA && projection != PROJECTION_PERSPECTIVE)
-        cone = vec2(0.0, frame.footprint);
+        cone = REAL2(0.0, frame.footprint);
     return cone;
 }

@@ -194,6 +194,16 @@ static const struct pair pairs[] = {
      "camera: {position: [1000000000, 0, 0], look_at: [1000000000, 0, -4]" NARROW "0.01}"},
     {"an image on a long triangle", "models:\n  - {mesh: long.obj, " IMAGE "}\n", "camera: {}"},
     {"cells of a long triangle", "models:\n  - {mesh: long.obj, " SIZE("0.05") "}\n", "camera: {}"},
+    {"cells near where a ball gathers light",
+     "spheres:\n  - {center: [0, 0, -4], radius: 1, material: {albedo: [0, 0, 0, 1], refractive_index: "
+     "1.5}}\n"
+     "rectangles:\n  - {corner: [-30, -30, -5.5], edge_u: [60, 0, 0], edge_v: [0, 60, 0], " SIZE(
+         "0.03") "}\n",
+     "camera: {look_at: [0, 0, -4], fov: 20}"},
+    {"an image at a sphere's pole",
+     "ambient: 1\nspheres:\n  - {center: [0, 0, 0], radius: 2, material: {diffuse_color: {image: {file: "
+     "mixed.png, repeat: 5}}}}\n",
+     "camera: {position: [0.00001, 4, 0], look_at: [0.00001, 0, -0.00002], up: [0, 0, -1], fov: 0.001}"},
 };
 
 static bool write_long(struct analytic *a) {
