@@ -7,7 +7,9 @@
 // name: nothing uses it. Left out are texts (names, and files, which have tests of their own) and what holds
 // other rows.
 //
-// Usage: test_attributes WORK_FOLDER
+// Usage: test_attributes WORK_FOLDER [ROW]...
+// A ROW is the name of one, as "roughness", of all elements that have it, or "material.roughness"; none: all
+// rows. Seed by seed a line says how many are proven.
 #include "files/output.h"
 #include "grammar/ir.h"
 #include "grammar/ir_walk.h"
@@ -22,6 +24,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum {
     SEEDS = 60, // at most: it ends where all rows are proven
@@ -52,6 +55,7 @@ struct pictures {
 struct bench {
     struct picture_kit kit;
     const char *work;
+    char **only; // rows, ending with NULL; none: all
     struct use uses[ROWS_MAX];
     uint32_t count;
     struct arena arena;
@@ -77,13 +81,25 @@ static bool is_motion(const struct schema_element *schema) {
     return schema == &SCHEMA_ANIMATION || schema == &SCHEMA_TRACK || schema == &SCHEMA_KEYFRAME;
 }
 
+static bool is_asked_for(const struct bench *b, const struct schema_element *schema,
+                         const struct schema_row *row) {
+    char whole[256];
+    snprintf(whole, sizeof whole, "%s.%s", schema->name, row->name);
+    bool asked = !b->only[0];
+    for (char **only = b->only; *only; only++)
+        asked |= strcasecmp(*only, whole) == 0 || strcmp(*only, row->name) == 0;
+    return asked;
+}
+
 static void list_uses(struct bench *b) {
     for (uint32_t i = 0; schema_elements[i]; i++)
         for (uint32_t k = 0; k < schema_elements[i]->row_count && !is_motion(schema_elements[i]); k++) {
-            const struct schema_row *row = &schema_elements[i]->rows[k];
-            const uint32_t components = !is_light(row) ? 0 : row->kind == SCHEMA_WEIGHTS ? 4 : 1;
+            const struct schema_element *schema = schema_elements[i];
+            const struct schema_row *row = &schema->rows[k];
+            const bool asked = is_light(row) && is_asked_for(b, schema, row);
+            const uint32_t components = !asked ? 0 : row->kind == SCHEMA_WEIGHTS ? 4 : 1;
             for (uint32_t c = 0; c < components && b->count < ROWS_MAX; c++)
-                b->uses[b->count++] = (struct use){.schema = schema_elements[i], .row = row, .component = c};
+                b->uses[b->count++] = (struct use){.schema = schema, .row = row, .component = c};
         }
 }
 
@@ -411,11 +427,11 @@ static bool write_mesh(const struct bench *b) {
     return output_whole(path, text, sizeof text - 1) == 0;
 }
 
-static bool all_proven(const struct bench *b) {
+static uint32_t count_proven(const struct bench *b) {
+    uint32_t proven = 0;
     for (uint32_t i = 0; i < b->count; i++)
-        if (!b->uses[i].proven)
-            return false;
-    return true;
+        proven += b->uses[i].proven;
+    return proven;
 }
 
 static uint64_t row_bit(const struct schema_element *schema, const char *row) {
@@ -531,13 +547,19 @@ static int tell(const struct bench *b) {
 
 int main(int argc, char **argv) {
     static struct bench b;
-    if (argc != 2 || !picture_kit_open(&b.kit))
+    if (argc < 2 || !picture_kit_open(&b.kit))
         return 77;
     b.work = argv[1];
+    b.only = argv + 2;
     list_uses(&b);
-    bool good = !b.kit.by_reference && write_sky(&b) && write_mesh(&b);
-    for (uint64_t seed = 0; good && seed < SEEDS && !all_proven(&b); seed++)
+    if (b.count == 0)
+        fprintf(stderr, "no row of that name changes a picture\n");
+    bool good = !b.kit.by_reference && b.count > 0 && write_sky(&b) && write_mesh(&b);
+    for (uint64_t seed = 0; good && seed < SEEDS && count_proven(&b) < b.count; seed++) {
         try_seed(&b, seed);
+        printf("seed %d: %u of %u rows and components proven\n", (int)seed, count_proven(&b), b.count);
+        fflush(stdout);
+    }
     int failed = tell(&b);
     return picture_kit_close(&b.kit) || failed || !good;
 }

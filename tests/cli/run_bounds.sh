@@ -1,11 +1,17 @@
 #!/bin/sh
 # glint render --max-error keeps its bound: what it renders is compared with the reference at many samples.
-# Usage: run_bounds.sh GLINT SOURCE_FOLDER WORK_FOLDER [whole]
+# Usage: run_bounds.sh GLINT SOURCE_FOLDER WORK_FOLDER [whole | random SEED FIRST COUNT]
 #   else: two small scenes against 64 samples. whole: 20 scenes, three bounds each, against 256 samples; some minutes.
+#   random: scenes of tests/sweep, four bounds each, and what each search took: processor time, and that of its picture alone.
 . "$(dirname -- "$0")/lib.sh"
 export XDG_CACHE_HOME="$work/cache"
 bounds='flip=0.1 flip=0.03 mae=0.004'
-if [ "${4:-}" = whole ]; then
+scenes_of=${4:-few}
+if [ "$scenes_of" = random ]; then
+    size=96x72 samples=256
+    bounds='mae=0.004 rmse=0.012 psnr=38 flip=0.03'
+    scenes=$("${glint%/*}/tests/write_sweep" . "$5" "$6" "$7")
+elif [ "$scenes_of" = whole ]; then
     size=96x72 samples=256
     scenes='showcase tinyraytracer elements/background_color elements/background_image elements/camera elements/checker
         elements/image elements/include elements/lights elements/material_map elements/materials elements/models
@@ -16,19 +22,34 @@ else
     scenes='elements/spheres elements/trace'
 fi
 
+# timed COMMAND...: its status; what it took is in taken.txt.
+timed() {
+    TIMEFORMAT='%U %S' bash -c '{ time "$@" 2>&3; } 3>&2 2>taken.txt' bash "$@"
+}
+# The same picture without a search, and what that took; a line.
+alone() {
+    options=$(sed -n 's/^ *options //p' bound.err)
+    search=$(awk '{ print $1 + $2 }' taken.txt)
+    # shellcheck disable=SC2086 # words of their own
+    timed "$glint" render "$1" -q --size "$size" $options -o alone.pfm 2>alone.err
+    awk -v search="$search" '{ own = $1 + $2; printf "   %.2f s, %.2f s alone%s\n", search, own, (search > 3 * own + 2 ? ": LONG" : "") }' taken.txt
+}
+
 # bound SCENE BOUND: renders, compares, and prints a line; kept, or said that nothing fits.
 bound() {
-    metric=${2%%=*} most=${2#*=}
+    metric=${2%%=*} most=${2#*=} side=max
+    [ "$metric" != psnr ] || side=min
     rm -f bound.pfm
-    "$glint" render "$1" -q --size "$size" --max-error "$2" -o bound.pfm 2>bound.err
+    timed "$glint" render "$1" --size "$size" --max-error "$2" -o bound.pfm 2>bound.err
     status=$?
     if [ $status = 1 ] && grep -q E807 bound.err && [ ! -e bound.pfm ]; then
-        echo "$shown $2: nothing fits"
+        echo "$shown $2: nothing fits: $(sed -n 's/.*help: //p' bound.err), $(cat taken.txt) s"
         return 0
     fi
-    "$glint" compare bound.pfm truth.pfm --space displayed "--max-$metric" "$most" >compared.txt
+    "$glint" compare bound.pfm truth.pfm --space displayed "--$side-$metric" "$most" >compared.txt
     kept=$?
     echo "$shown $2: $(awk -v metric="$metric" '$1 == metric { print $2 }' compared.txt)"
+    [ "$scenes_of" != random ] || alone "$1"
     [ $status = 0 ] && [ $kept = 0 ] && echo "$shown $2" >>kept.txt
 }
 
@@ -65,6 +86,7 @@ expect "rays are counted after the picture" 0 "" "" counted
 count=0
 for shown in $scenes; do
     scene="$source/scenes/$shown.glint.yaml"
+    [ "$scenes_of" != random ] || scene=$shown
     "$glint" render "$scene" -q --size "$size" --device reference --samples "$samples" -o truth.pfm
     for b in $bounds; do
         count=$((count + 1))

@@ -292,6 +292,13 @@ static enum tradeoff_status try_probe(struct measuring *s, const struct setting 
     return status;
 }
 
+// As the file has it.
+static void round_shown(const struct measuring *s, size_t values) {
+    const double levels = s->out->options.levels;
+    for (size_t i = 0; levels > 0 && i < values; i++)
+        s->shown[i] = (float)(floor(levels * (double)s->shown[i] + 0.5) / levels);
+}
+
 static enum tradeoff_status probe_row(struct measuring *s, struct row *row) {
     struct search_pictures *p = &s->search;
     const enum metric metric = s->out->options.metric;
@@ -299,7 +306,9 @@ static enum tradeoff_status probe_row(struct measuring *s, struct row *row) {
     if (status != TRADEOFF_DONE)
         return status;
     image_to_displayed(p->tried, probe_values(p) / 3, s->display, s->shown);
-    row->floor = metric_error(metric, distance_from(s, p->probe_width, p->probe_height, p->tried));
+    round_shown(s, probe_values(p));
+    const double remains = distance_from(s, p->probe_width, p->probe_height, p->tried);
+    row->floor = metric_error(metric, plan_search_safe(metric, remains, MARGIN));
     for (int i = 0; i < METRIC_COUNT; i++)
         row->value[i] = (double)NAN;
     return isnan(row->floor) ? TRADEOFF_MEMORY : TRADEOFF_DONE;
@@ -371,25 +380,18 @@ static enum tradeoff_status draw_row(struct measuring *s, const struct setting *
 }
 
 // Fills s->picture with the row's picture, linear, and p->best with one that is as far from it as it is from
-// the truth, as far as its own samples tell: two means of samples that differ by chance.
+// the truth, as far as its own samples tell.
 static void row_pictures(struct measuring *s, const struct setting *setting) {
     struct search_pictures *p = &s->search;
     const size_t values = (size_t)3 * setting->width * setting->height;
     const double o = p->older_samples, n = p->newer_samples;
     const bool is_one = setting->samples < o + n;
-    const double further = is_one ? sqrt(n / (o + n)) : sqrt(n / o);
+    const double reach = plan_search_reach(setting->samples, p->older_samples, p->newer_samples);
     for (size_t i = 0; i < values; i++) {
         const double mean = is_one ? p->older[i] / o : (p->older[i] + p->newer[i]) / (o + n);
         s->picture[i] = (float)mean;
-        p->best[i] = (float)(mean + further * (p->newer[i] / n - mean));
+        p->best[i] = (float)(mean + reach * (p->newer[i] / n - mean));
     }
-}
-
-// As the file has it.
-static void round_shown(const struct measuring *s) {
-    const double levels = s->out->options.levels;
-    for (size_t i = 0; levels > 0 && i < values_of(s); i++)
-        s->shown[i] = (float)(floor(levels * (double)s->shown[i] + 0.5) / levels);
 }
 
 // Of the file's size: s->picture and p->best are as row_pictures leaves them.
@@ -399,7 +401,7 @@ static void measure_whole(struct measuring *s, struct row *row) {
     const uint32_t width = s->base.width, height = s->base.height;
     image_to_displayed(s->picture, values_of(s) / 3, s->display, s->shown);
     memcpy(s->ground_truth, s->shown, values_of(s) * sizeof(float));
-    round_shown(s);
+    round_shown(s, values_of(s));
     row->rounding = metric_error(metric, distance(s, width, height, s->shown, s->ground_truth));
     row->value[metric] = distance_from(s, width, height, p->best);
     for (size_t i = 0; i < values_of(s); i++)
@@ -413,7 +415,7 @@ static void measure_small(struct measuring *s, struct row *row) {
     const uint32_t width = s->base.width, height = s->base.height;
     scale_picture(s->picture, row->setting.width, row->setting.height, s->shown, width, height);
     image_to_displayed(s->shown, values_of(s) / 3, s->display, s->shown);
-    round_shown(s);
+    round_shown(s, values_of(s));
     row->value[s->out->options.metric] = distance(s, width, height, s->shown, s->search.best);
 }
 

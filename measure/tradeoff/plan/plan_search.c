@@ -10,6 +10,7 @@ enum {
     PROBE_MOST = 1 << 16, // pixels
     PROBE_SAMPLES = 4,    // at most
     SETTLED = 8,          // samples from which on errors tell of more
+    SETTLED_WELL = 24,    // and from which on they tell that more do not help
     DEEPER_MOST = 6,      // times that paths are made longer
     DEPTH_MOST = 64,      // that a scene may ask for
     STEP_FEW = 2,         // times the samples, while they are few
@@ -21,12 +22,14 @@ static const double TRUTH_RAYS = 6e5;
 static const double DEEPER_WEIGHT = 3;
 // Errors fall by about this power of the samples: those of edges by about 0.75, of the rest by 0.5.
 static const double FALLS_LEAST = 0.4, FALLS = 0.5, FALLS_MOST = 0.75;
-// Four times the samples make errors about half as large. Where they do not, something else is wrong.
-static const double STAGNATES = 0.9;
+// Four times the samples make errors about half as large. Where they fall by no more than this power,
+// something else is wrong.
+static const double STAGNATES = 0.15;
 // More than what is foretold, and at least, from one row to the next.
 static const double AIM = 1.06, STEP_LEAST = 1.15;
-// Of the bound: what may remain however many samples there are.
-static const double FLOOR_SHARE = 0.9;
+// Of the bound: what may remain however many samples there are. The less remains, the fewer samples the rest
+// takes: at most 0.6 is aimed at, and with more than 0.9 they would be too many.
+static const double FLOOR_AIM = 0.6, FLOOR_SHARE = 0.9;
 // Of the bound: what more may remain where less is traced.
 static const double LOWER_SHARE = 0.1;
 // Of the time that is left, for the next try.
@@ -85,27 +88,33 @@ static double share_of_bound(const struct plan_search_input *in, double share) {
 // ---- what samples do
 
 struct climb {
+    double floor;                         // amount that remains however many samples there are
     double samples, amount;               // of the last row
     double before_samples, before_amount; // of the one before it; 0: there was none
 };
 
-// To which power of the samples errors fall, going by the last two rows.
+// What of an amount is due to chance. The two add up as independent errors do.
+static double by_chance(const struct climb *c, double amount) {
+    return amount > c->floor ? sqrt(amount * amount - c->floor * c->floor) : 0;
+}
+
+// To which power of the samples errors by chance fall, going by the last two rows.
 static double falls(const struct climb *c) {
-    if (!(c->before_samples >= 2) || !(c->amount > 0) || !(c->before_amount > 0))
+    const double now = by_chance(c, c->amount), before = by_chance(c, c->before_amount);
+    if (!(c->before_samples >= 2) || !(now > 0) || !(before > 0))
         return FALLS;
-    const double power = log(c->before_amount / c->amount) / log(c->samples / c->before_samples);
-    return fmin(fmax(power, FALLS_LEAST), FALLS_MOST);
+    return fmin(fmax(log(before / now) / log(c->samples / c->before_samples), FALLS_LEAST), FALLS_MOST);
 }
 
 // That keep the bound, going by the last rows.
 static double foretold(const struct plan_search_input *in, const struct climb *c, double power) {
-    const double bound = amount_of(in->metric, in->error_most);
-    return bound > 0 ? c->samples * pow(c->amount / bound, 1 / power) : (double)INFINITY;
+    const double bound = by_chance(c, amount_of(in->metric, in->error_most));
+    return bound > 0 ? c->samples * pow(by_chance(c, c->amount) / bound, 1 / power) : (double)INFINITY;
 }
 
 static bool stagnates(const struct climb *c) {
-    return c->before_samples >= SETTLED && c->samples >= STEP_FEW * c->before_samples &&
-           c->amount > STAGNATES * c->before_amount;
+    return c->before_samples >= SETTLED_WELL && c->samples >= STEP_FEW * c->before_samples &&
+           c->amount > c->before_amount * pow(c->before_samples / c->samples, STAGNATES);
 }
 
 static bool is_hopeless(const struct plan_search_input *in, const struct climb *c) {
@@ -138,6 +147,15 @@ static struct setting probe_of(const struct setting *setting) {
     return s;
 }
 
+// The amount that remains of a setting, however many samples there are; 0: nothing is known of it.
+static double floor_of(enum metric metric, const struct row *rows, uint32_t count, const struct setting *at) {
+    const struct setting probe = probe_of(at);
+    for (uint32_t i = 0; i < count; i++)
+        if (is_same(&rows[i].setting, &probe))
+            return amount_of(metric, rows[i].floor);
+    return 0;
+}
+
 static struct setting deeper(const struct setting *at, bool keeps_depth) {
     struct setting s = *at;
     const uint32_t twice = at->max_depth ? 2 * at->max_depth : 2;
@@ -149,7 +167,7 @@ static struct setting deeper(const struct setting *at, bool keeps_depth) {
 
 // Samples are added until the bound is kept. NULL: it is not, or a row must be measured first.
 static const struct row *climb(struct searching *s, struct setting *at) {
-    struct climb c = {0};
+    struct climb c = {.floor = floor_of(s->input->metric, s->rows, s->count, at)};
     for (at->samples = 1; at->samples; at->samples = more_samples(s->input, &c)) {
         const struct row *row = ask(s, at);
         if (!row || keeps(s, row))
@@ -161,9 +179,10 @@ static const struct row *climb(struct searching *s, struct setting *at) {
     return NULL;
 }
 
-// Whether samples can keep the bound: with longer paths where the file cuts too much for it.
-static bool is_in_reach(struct searching *s, struct setting *at) {
-    const double most = share_of_bound(s->input, FLOOR_SHARE);
+// The first setting of which no more remains than this share of the bound, with longer paths where the file
+// cuts too much for it. false: there is none, or it must be measured first.
+static bool is_deep_enough(struct searching *s, struct setting *at, double share) {
+    const double most = share_of_bound(s->input, share);
     for (int i = 0; i <= DEEPER_MOST; i++) {
         const struct setting probe = probe_of(at);
         const struct row *row = ask(s, &probe);
@@ -174,6 +193,15 @@ static bool is_in_reach(struct searching *s, struct setting *at) {
         *at = deeper(at, s->input->keeps_depth);
     }
     return false;
+}
+
+// Whether samples can keep the bound.
+static bool is_in_reach(struct searching *s, struct setting *at) {
+    struct setting aim = *at;
+    if (!is_deep_enough(s, &aim, FLOOR_AIM))
+        return is_deep_enough(s, at, FLOOR_SHARE);
+    *at = aim;
+    return true;
 }
 
 // What may remain of the error where less is traced, as amount_of: what remains now and a part of the bound,
@@ -187,7 +215,8 @@ static double allowance(struct searching *s, const struct setting *at) {
         return 0;
     const double bound = amount_of(s->input->metric, s->input->error_most);
     const double left = bound - amount_of(s->input->metric, error_of(s, row));
-    return amount_of(s->input->metric, probe->floor) + fmax(LOWER_SHARE * bound, left);
+    const double floor = amount_of(s->input->metric, probe->floor);
+    return floor + fmax(fmin(LOWER_SHARE * bound, FLOOR_SHARE * bound - floor), left);
 }
 
 // Settings from coarse to fine, all coarser than *at: the coarsest of which no more remains than is allowed,
@@ -367,17 +396,21 @@ struct search_verdict plan_search_verdict(const struct plan_search_input *input,
             return (struct search_verdict){SEARCH_FORMAT, 0, 0, row->rounding};
         if (!isfinite(error) || row->not_finite || row->setting.width != input->base.width)
             continue;
-        c = row->setting.samples > c.samples ? c : (struct climb){0};
+        if (row->setting.samples <= c.samples)
+            c = (struct climb){0};
+        c.floor = floor_of(input->metric, rows, count, &row->setting);
+        v.value = error;
         climb_on(input, &c, row->setting.samples, error);
         ms = row->time_ms / row->setting.samples;
         v.kind = SEARCH_SAMPLES;
     }
     if (v.kind != SEARCH_SAMPLES)
         return v;
-    if (stagnates(&c))
-        return (struct search_verdict){SEARCH_REMAINS, 0, 0, c.amount};
     v.samples = foretold(input, &c, falls(&c));
     v.seconds = 1e-3 * ms * v.samples;
+    if (stagnates(&c) || !isfinite(v.samples))
+        return (struct search_verdict){SEARCH_REMAINS, 0, 0, v.value};
+    v.value = (double)NAN;
     return v;
 }
 

@@ -165,7 +165,7 @@ void tradeoff_notes(const struct tradeoff *t, struct strbuf *out) {
                   t->count, t->rounds, t->seconds, t->reference_seconds, t->ground_truth_samples);
     if (t->options.budget_s > 0)
         strbuf_format(out, "; the budget was %.6g s", t->options.budget_s);
-    strbuf_char(out, '\n');
+    strbuf_cstr(out, "\ntimes are by the device's clock, as the last number of 'render --repeat'\n");
     if (!isnan(t->slope))
         strbuf_format(out, "errors (mae) change as samples to the power of %.2f\n", t->slope);
     if (t->ground_truth_samples <= t->rows[0].work.samples)

@@ -1,6 +1,7 @@
 // Searches over settings whose errors and times a formula gives: what is tried, what it costs, what is found.
 #include "measure/tradeoff/choose/choose.h"
 #include "measure/tradeoff/plan/plan_search.h"
+#include "scene/view.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -298,6 +299,62 @@ static void probes_are_small_where_paths_are_long(void **state) {
     assert_true(p.width == 48 && p.height == 32 && p.samples == 4);
 }
 
+// With nine tenths of the bound used up by what longer paths would add, samples would never end: they are few
+// where lighter paths are followed first.
+static void little_remains_before_samples_are_many(void **state) {
+    (void)state;
+    const struct world w = {.noise = 0.02, .weight = 3.4, .darkness = 0.5, .deepest = 8};
+    struct plan_search_input input = input_of(&w);
+    struct found f;
+    input.error_most = 0.004;
+    input.cut = true;
+    run(&w, &input, &f);
+    const struct row *row = cheapest(&f, 0.004);
+    assert_non_null(row);
+    assert_true(row->setting.min_weight < 0.001 && row->setting.samples <= 60);
+    assert_true(f.drawn <= 2 * row->setting.samples);
+}
+
+// ---- two means of samples at straight edges, by edges of this test
+
+static double mean_within(double a, double b, double from, uint32_t first, uint32_t count) {
+    double x, y, within = 0;
+    for (uint32_t i = first; i < first + count; i++) {
+        view_sample_offset(i, &x, &y);
+        within += (x - 0.5) * a + (y - 0.5) * b > from;
+    }
+    return within / count;
+}
+
+// Of a pixel, by lines of it.
+static double share_within(double a, double b, double from) {
+    double share = 0;
+    for (int i = 0; i < 200; i++) {
+        const double rest = from - ((i + 0.5) / 200 - 0.5) * a;
+        const double y = fmin(fmax(rest / b, -0.5), 0.5);
+        share += (b > 0 ? 0.5 - y : y + 0.5) / 200;
+    }
+    return share;
+}
+
+static void means_tell_how_far_edges_are_off(void **state) {
+    (void)state;
+    for (uint32_t n = 2; n < 60; n++) {
+        const uint32_t older = (n + 1) / 2, newer = n - older;
+        double error = 0, apart = 0;
+        for (int turn = 0; turn < 45; turn++)
+            for (int k = -10; k <= 10; k++) {
+                const double angle = 0.07 + turn * 8 * 3.14159265358979 / 180, a = cos(angle), b = sin(angle);
+                const double mean = mean_within(a, b, 0.07 * k, 0, n);
+                error += fabs(mean - share_within(a, b, 0.07 * k));
+                apart += fabs(mean - mean_within(a, b, 0.07 * k, older, newer));
+            }
+        assert_true(plan_search_reach(n, older, newer) * apart > 0.9 * error);
+    }
+    assert_true(plan_search_reach(11, 6, 5) > 1.5 * sqrt(5.0 / 6));
+    assert_true(plan_search_reach(1, 1, 1) >= sqrt(0.5));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_loose_bound_needs_one_sample),
@@ -313,6 +370,8 @@ int main(void) {
         cmocka_unit_test(shorter_paths_where_one_sample_takes_too_long),
         cmocka_unit_test(pilots_end_where_rays_cost_too_much),
         cmocka_unit_test(safe_values_are_worse),
+        cmocka_unit_test(little_remains_before_samples_are_many),
+        cmocka_unit_test(means_tell_how_far_edges_are_off),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
