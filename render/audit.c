@@ -33,11 +33,11 @@ struct work {
     atomic_bool failed;
 };
 
-bool audit_is_off(const float rgb[3], const double exact[3], struct image_display display) {
+bool audit_is_off(const float rgb[3], const double reference[3], struct image_display display) {
     float linear[6], shown[6];
     for (int k = 0; k < 3; k++) {
         linear[k] = rgb[k];
-        linear[k + 3] = (float)exact[k];
+        linear[k + 3] = (float)reference[k];
     }
     image_to_displayed(linear, 2, display, shown);
     bool off = image_is_marked(rgb) || image_is_marked(linear + 3);
@@ -57,14 +57,14 @@ static void trace_piece(void *context, size_t begin, size_t end) {
     struct work *w = context;
     for (size_t i = begin; i < end; i++) {
         uint32_t x, y;
-        double exact[3];
+        double reference[3];
         spread_pixel(&w->grid, w->first + (uint32_t)i, &x, &y);
         const size_t place = (size_t)y * w->image->width + x;
         struct reference_settings settings = w->settings;
         settings.samples = w->samples ? w->samples[place] : settings.samples;
-        if (!reference_pixel(w->reference, &settings, x, y, exact))
+        if (!reference_pixel(w->reference, &settings, x, y, reference))
             atomic_store(&w->failed, true);
-        else if (audit_is_off(w->image->rgb + 3 * place, exact, w->display))
+        else if (audit_is_off(w->image->rgb + 3 * place, reference, w->display))
             note_off(w, (uint32_t)place);
     }
 }

@@ -41,7 +41,7 @@ enum shot_status audit_take(struct session *session, const struct view *view, co
                             const struct audit_wish *wish, const struct render_progress *progress,
                             struct audit *out);
 // Whether a pixel is off: its linear values by the device, and by the reference.
-bool audit_is_off(const float rgb[3], const double exact[3], struct image_display display);
+bool audit_is_off(const float rgb[3], const double reference[3], struct image_display display);
 // "at most 0.0995 % of the pixels are off by more than 1/255 (95 % sure): 0 of 3710 traced again ...", a line
 // without an end.
 void audit_words(const struct audit *audit, struct strbuf *out);

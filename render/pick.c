@@ -2,7 +2,7 @@
 
 #include "core/heap.h"
 #include "grammar/ir.h"
-#include "render/by_reference.h"
+#include "render/reference_shot.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -74,27 +74,27 @@ static enum shot_status log_device(struct pick *pick, struct gpu *gpu, uint32_t 
 
 static enum shot_status log_reference(struct pick *pick, uint32_t camera) {
     struct pick_log *out = &pick->logs[PICK_REFERENCE];
-    struct exact exact;
-    const struct exact_options options = {.as_file = true, .no_cache = true};
-    enum shot_status status = exact_open(&exact, pick->session, camera, options);
+    struct reference_shot shot;
+    const struct reference_shot_options options = {.as_file = true, .no_cache = true};
+    enum shot_status status = reference_shot_open(&shot, pick->session, camera, options);
     if (status == SHOT_OK) {
-        const struct reference *reference = reference_source_get(&exact.source);
+        const struct reference *reference = reference_source_get(&shot.source);
         out->segments = heap_array(PICK_SEGMENTS_MAX, sizeof *out->segments);
         if (reference && out->segments)
-            out->count = reference_log(reference, &exact.settings, pick->x, pick->y, pick->sample,
+            out->count = reference_log(reference, &shot.settings, pick->x, pick->y, pick->sample,
                                        out->segments, PICK_SEGMENTS_MAX, &out->color);
         for (uint32_t i = 0; reference && i < pick->sample_count; i++)
-            reference_log(reference, &exact.settings, pick->x, pick->y, i, NULL, 0,
+            reference_log(reference, &shot.settings, pick->x, pick->y, i, NULL, 0,
                           &pick->samples[PICK_REFERENCE][i]);
         out->whole = out->count <= PICK_SEGMENTS_MAX;
         if (out->count == 0)
             status = shot_no_memory(pick->session, "the path");
         if (!out->whole)
             out->count = PICK_SEGMENTS_MAX;
-        pick->camera = exact.view.camera.name;
-        pick->max_depth = exact.settings.max_depth;
+        pick->camera = shot.view.camera.name;
+        pick->max_depth = shot.settings.max_depth;
     }
-    exact_close(&exact);
+    reference_shot_close(&shot);
     return status;
 }
 

@@ -255,7 +255,7 @@ static int judge_made(struct render_job *job, uint32_t first, uint32_t end) {
 
 static int render_cameras(struct render_job *job) {
     const struct ir_cameras *cameras = &job->session.scene->cameras;
-    const bool exact = cli_device_is_reference(job->cli);
+    const bool by_reference = cli_device_is_reference(job->cli);
     bool all = str_equal(job->cli->options.camera, STR("all"));
     job->all_cameras = all && cameras->count > 0;
     uint32_t first = all ? 0 : session_camera(&job->session, job->cli->options.camera);
@@ -264,7 +264,7 @@ static int render_cameras(struct render_job *job) {
     const bool good =
         first != IR_NO_INDEX &&
         (job->in_bands || image_init(&job->image, job->part.region.width, job->part.region.height));
-    if ((!good || exact) && settle(job) != CLI_OK)
+    if ((!good || by_reference) && settle(job) != CLI_OK)
         return job->settled;
     if (first == IR_NO_INDEX)
         return cli_report(job->cli, &job->session, !job->cli->options.quiet);
@@ -284,7 +284,7 @@ static int render_cameras(struct render_job *job) {
         fits = leave_done(job, &first, end);
     if (fits != CLI_OK || first == end)
         return fits;
-    return exact ? render_by_reference(job, first, end) : render_by_device(job, first, end);
+    return by_reference ? render_by_reference(job, first, end) : render_by_device(job, first, end);
 }
 
 static int run_job(struct render_job *job, struct asset_store *store) {
@@ -309,9 +309,10 @@ static int run_job(struct render_job *job, struct asset_store *store) {
 }
 
 static bool has_useless_option(struct cli *cli) {
-    bool exact = cli_device_is_reference(cli);
-    return (exact && cli_has_no_effect(cli, "repeat", "it times frames of a device, not of the reference")) ||
-           (!exact && !cli_has_study(cli) &&
+    bool by_reference = cli_device_is_reference(cli);
+    return (by_reference &&
+            cli_has_no_effect(cli, "repeat", "it times frames of a device, not of the reference")) ||
+           (!by_reference && !cli_has_study(cli) &&
             cli_has_no_effect(cli, "no-cache", "the cache is that of '--device reference'"));
 }
 

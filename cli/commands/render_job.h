@@ -13,7 +13,7 @@
 
 struct cli_opening;
 struct render_aovs;
-struct exact;
+struct reference_shot;
 
 struct render_job {
     struct cli *cli;
@@ -96,9 +96,9 @@ int render_note_estimate(struct render_job *job);
 
 // Once the scene is known: whether it can be made at all.
 int render_judge_aovs(struct render_job *job);
-// After the frame: makes all of it by the tracer that made the picture, the reference if `exact` is not NULL,
+// After the frame: makes all of it by the tracer that made the picture, the reference if `shot` is not NULL,
 // as layers of the job's image where an output is OpenEXR.
-int render_make_aovs(struct render_job *job, struct exact *exact);
+int render_make_aovs(struct render_job *job, struct reference_shot *shot);
 // Whether the files beside the picture may be written.
 int render_judge_aov_names(struct render_job *job, uint32_t camera);
 // After the pictures: files beside the OpenEXR picture, or the first output that is a file.

@@ -1,7 +1,7 @@
 // glint render --device reference: the same files as a device makes, by the tracer in double precision.
 #include "cli/commands/render_job.h"
 #include "core/json_write.h"
-#include "render/by_reference.h"
+#include "render/reference_shot.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -24,11 +24,12 @@ static bool report(void *context, double fraction) {
     X("cut by segments", "cut_by_segments", s->cut_by_segments)                                              \
     X("deepest level", "deepest", s->deepest)
 
-static void text_of(const struct exact *exact, const struct reference_statistics *s, struct strbuf *out) {
-    const struct reference_settings *settings = &exact->settings;
+static void text_of(const struct reference_shot *shot, const struct reference_statistics *s,
+                    struct strbuf *out) {
+    const struct reference_settings *settings = &shot->settings;
     strbuf_format(
         out, "device: reference, double precision%s\npicture: %u x %u, %u sample%s, computed in %.3f s\n",
-        exact->source.found ? ", from its cache" : "", settings->width, settings->height, settings->samples,
+        shot->source.found ? ", from its cache" : "", settings->width, settings->height, settings->samples,
         settings->samples == 1 ? "" : "s", s->seconds);
     strbuf_cstr(out, "rays\n");
 #define WORDS(words, name, value) strbuf_format(out, "  %-18s %12llu\n", words, (unsigned long long)(value));
@@ -41,15 +42,16 @@ static void text_of(const struct exact *exact, const struct reference_statistics
         s->left_weight_most, s->left_weight_mean, s->brightest, s->bound);
 }
 
-static void json_of(const struct exact *exact, const struct reference_statistics *s, struct strbuf *out) {
-    const struct reference_settings *settings = &exact->settings;
-    const double unused_error = exact->session->unused_error;
+static void json_of(const struct reference_shot *shot, const struct reference_statistics *s,
+                    struct strbuf *out) {
+    const struct reference_settings *settings = &shot->settings;
+    const double unused_error = shot->session->unused_error;
     struct json_writer w;
     json_report_begin(&w, out, JSON_WRITE_DEPTH_MAX, "glint render --device reference", 1);
     json_write_text(&w, "device", STR("reference"));
-    json_write_text(&w, "camera", exact->view.camera.name);
+    json_write_text(&w, "camera", shot->view.camera.name);
     json_write_boolean(&w, "as_file", settings->as_file);
-    json_write_boolean(&w, "cached", exact->source.found > 0);
+    json_write_boolean(&w, "cached", shot->source.found > 0);
     json_write_integer(&w, "width", settings->width);
     json_write_integer(&w, "height", settings->height);
     json_write_integer(&w, "samples", settings->samples);
@@ -70,17 +72,17 @@ static void json_of(const struct exact *exact, const struct reference_statistics
     json_report_end(&w);
 }
 
-static int tell_statistics(struct render_job *job, const struct exact *exact,
+static int tell_statistics(struct render_job *job, const struct reference_shot *shot,
                            const struct reference_statistics *statistics) {
     struct strbuf text;
     strbuf_init(&text);
-    (job->cli->options.stats == CLI_STATS_JSON ? json_of : text_of)(exact, statistics, &text);
+    (job->cli->options.stats == CLI_STATS_JSON ? json_of : text_of)(shot, statistics, &text);
     int status = render_tell_stats(job, strbuf_view(&text));
     strbuf_finish(&text);
     return status;
 }
 
-static void tell_end(struct render_job *job, const struct exact *exact, uint32_t camera,
+static void tell_end(struct render_job *job, const struct reference_shot *shot, uint32_t camera,
                      const struct reference_statistics *statistics) {
     if (job->cli->options.quiet)
         return;
@@ -88,24 +90,24 @@ static void tell_end(struct render_job *job, const struct exact *exact, uint32_t
     fprintf(stderr,
             "glint: the reference left out at most %.3g of a pixel's weight, which could add %.3g%s\n",
             statistics->left_weight_most, statistics->bound,
-            exact->source.found ? " (picture from its cache)" : "");
+            shot->source.found ? " (picture from its cache)" : "");
     render_tell_written(job, camera);
 }
 
 static int render_camera(struct render_job *job, uint32_t camera) {
     const struct cli_options *options = &job->cli->options;
-    struct exact exact;
+    struct reference_shot shot;
     struct reference_statistics statistics;
     struct render_progress callback = progress_callback(&job->progress);
     struct reference_progress progress = {report, &callback};
-    enum shot_status taken = exact_open(&exact, &job->session, camera,
-                                        (struct exact_options){options->as_file, options->no_cache});
+    enum shot_status taken = reference_shot_open(
+        &shot, &job->session, camera, (struct reference_shot_options){options->as_file, options->no_cache});
     progress_begin(&job->progress, options->quiet);
     if (taken == SHOT_OK)
-        taken = exact_take(&exact, &job->image, NULL, &progress, &statistics);
+        taken = reference_shot_take(&shot, &job->image, NULL, &progress, &statistics);
     int status = taken == SHOT_OK ? CLI_OK : taken == SHOT_CANCELLED ? render_interrupted(job) : CLI_SCENE;
     if (status == CLI_OK)
-        status = render_make_aovs(job, &exact);
+        status = render_make_aovs(job, &shot);
     progress_end(&job->progress);
     if (status == CLI_OK)
         status = render_write_pictures(job, camera);
@@ -113,10 +115,10 @@ static int render_camera(struct render_job *job, uint32_t camera) {
         status = render_write_aovs(job, camera);
     render_drop_aovs(job);
     if (status == CLI_OK && options->stats)
-        status = tell_statistics(job, &exact, &statistics);
+        status = tell_statistics(job, &shot, &statistics);
     if (status == CLI_OK)
-        tell_end(job, &exact, camera, &statistics);
-    exact_close(&exact);
+        tell_end(job, &shot, camera, &statistics);
+    reference_shot_close(&shot);
     return status;
 }
 

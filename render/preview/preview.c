@@ -3,8 +3,8 @@
 #include "core/clock.h"
 #include "core/heap.h"
 #include "grammar/ir.h"
-#include "render/by_reference.h"
 #include "render/live/live.h"
+#include "render/reference_shot.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -201,22 +201,22 @@ static enum preview_state take_by_device(struct preview *p, const struct preview
 // ---- by the reference
 
 static enum shot_status draw_by_reference(struct preview *p, void *context, struct drawing *d) {
-    struct exact *exact = context;
+    struct reference_shot *shot = context;
     struct reference_statistics statistics;
     const struct reference_progress progress = {report, d};
     (void)p;
     if (d->samples > d->samples_most)
         d->samples = d->samples_most;
-    exact->settings.width = d->image.width;
-    exact->settings.height = d->image.height;
-    exact->settings.samples = d->samples;
-    return exact_take(exact, &d->image, NULL, &progress, &statistics);
+    shot->settings.width = d->image.width;
+    shot->settings.height = d->image.height;
+    shot->settings.samples = d->samples;
+    return reference_shot_take(shot, &d->image, NULL, &progress, &statistics);
 }
 
 static enum preview_state take_by_reference(struct preview *p, const struct preview_wish *wish,
                                             const atomic_bool *cancelled, struct preview_picture *picture) {
     struct drawing made = {.cancelled = cancelled};
-    struct exact exact;
+    struct reference_shot shot;
     drop_session(p);
     p->session = live_read(&p->live, &wish->session, false).session;
     struct session *session = p->session;
@@ -227,17 +227,17 @@ static enum preview_state take_by_reference(struct preview *p, const struct prev
     const uint32_t camera = session_camera(session, wish->camera);
     if (camera == IR_NO_INDEX)
         return PREVIEW_BROKEN;
-    enum shot_status status =
-        exact_open(&exact, session, camera, (struct exact_options){.as_file = true, .no_cache = true});
+    enum shot_status status = reference_shot_open(
+        &shot, session, camera, (struct reference_shot_options){.as_file = true, .no_cache = true});
     if (status != SHOT_OK) {
-        exact_close(&exact);
+        reference_shot_close(&shot);
         return PREVIEW_BROKEN;
     }
     // Before time is taken: the tree is made once, for all pictures of this scene.
-    if (!reference_source_get(&exact.source))
+    if (!reference_source_get(&shot.source))
         status = SHOT_SCENE;
     else if (!*cancelled)
-        status = draw_in_time(p, wish, cancelled, draw_by_reference, &exact, &made);
+        status = draw_in_time(p, wish, cancelled, draw_by_reference, &shot, &made);
     else
         status = SHOT_CANCELLED;
     enum preview_state state = state_of(status, cancelled);
@@ -245,7 +245,7 @@ static enum preview_state take_by_reference(struct preview *p, const struct prev
     if (state == PREVIEW_DRAWN)
         state = keep(picture, display, &made);
     image_finish(&made.image);
-    exact_close(&exact);
+    reference_shot_close(&shot);
     return state;
 }
 

@@ -15,7 +15,7 @@
 #include "grammar/print/ir_print.h"
 #include "load/check.h"
 #include "picture/formats/formats.h"
-#include "render/by_reference.h"
+#include "render/reference_shot.h"
 #include "tests/agree/damaged.h"
 #include "tests/agree/mutate.h"
 #include "tests/generate/generate.h"
@@ -85,21 +85,22 @@ static bool draw_by_device(struct agree *a, struct session *session, struct imag
 
 // The picture, and before it what the device's way does with the scene until a device is needed.
 static bool draw_by_reference(struct session *session, struct image *image) {
-    struct exact exact;
+    struct reference_shot shot;
     struct reference_statistics statistics;
     struct flat_scene flat;
     bool good =
-        exact_open(&exact, session, 0, (struct exact_options){.as_file = true, .no_cache = true}) == SHOT_OK;
+        reference_shot_open(&shot, session, 0,
+                            (struct reference_shot_options){.as_file = true, .no_cache = true}) == SHOT_OK;
     struct flat_input input = {.scene = &session->resolved,
-                               .view = &exact.view,
-                               .origin = session_origin(session, &exact.view),
+                               .view = &shot.view,
+                               .origin = session_origin(session, &shot.view),
                                .limits = &session->options.limits,
                                .sink = &session->sink};
     good = good && flatten(&input, &flat);
     if (good)
         flat_finish(&flat);
-    good = good && exact_take(&exact, image, NULL, NULL, &statistics) == SHOT_OK;
-    exact_close(&exact);
+    good = good && reference_shot_take(&shot, image, NULL, NULL, &statistics) == SHOT_OK;
+    reference_shot_close(&shot);
     return good;
 }
 

@@ -15,8 +15,8 @@
 #include "grammar/ir_walk.h"
 #include "grammar/print/ir_print.h"
 #include "grammar/schema.h"
-#include "render/by_reference.h"
 #include "render/pick.h"
+#include "render/reference_shot.h"
 #include "tests/generate/generate.h"
 #include "tests/pictures/picture_kit.h"
 
@@ -221,15 +221,15 @@ static bool by_device(struct bench *b, struct pictures *p) {
 }
 
 static bool by_reference(struct pictures *p) {
-    struct exact exact;
+    struct reference_shot shot;
     struct reference_statistics statistics;
-    const struct exact_options options = {.as_file = true, .no_cache = true};
+    const struct reference_shot_options options = {.as_file = true, .no_cache = true};
     if (p->has_reference)
         return true;
-    bool good = exact_open(&exact, &p->session, 0, options) == SHOT_OK &&
-                image_init(&p->reference, exact.settings.width, exact.settings.height) &&
-                exact_take(&exact, &p->reference, NULL, NULL, &statistics) == SHOT_OK;
-    exact_close(&exact);
+    bool good = reference_shot_open(&shot, &p->session, 0, options) == SHOT_OK &&
+                image_init(&p->reference, shot.settings.width, shot.settings.height) &&
+                reference_shot_take(&shot, &p->reference, NULL, NULL, &statistics) == SHOT_OK;
+    reference_shot_close(&shot);
     p->has_reference = good;
     return good;
 }

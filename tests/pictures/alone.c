@@ -8,24 +8,24 @@
 #include "files/output.h"
 #include "grammar/ir.h"
 #include "reference/parts.h"
-#include "render/by_reference.h"
+#include "render/reference_shot.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
 // The scene through its first camera.
 static bool draw(struct session *session, struct image *image) {
-    struct exact exact;
+    struct reference_shot shot;
     struct reference_statistics statistics;
-    const struct exact_options options = {.as_file = true, .no_cache = true};
-    bool good = exact_open(&exact, session, 0, options) == SHOT_OK &&
-                image_init(image, exact.settings.width, exact.settings.height) &&
-                reference_source_get(&exact.source);
+    const struct reference_shot_options options = {.as_file = true, .no_cache = true};
+    bool good = reference_shot_open(&shot, session, 0, options) == SHOT_OK &&
+                image_init(image, shot.settings.width, shot.settings.height) &&
+                reference_source_get(&shot.source);
     if (good) {
-        exact.source.reference->media = false;
-        good = exact_take(&exact, image, NULL, NULL, &statistics) == SHOT_OK;
+        shot.source.reference->media = false;
+        good = reference_shot_take(&shot, image, NULL, NULL, &statistics) == SHOT_OK;
     }
-    exact_close(&exact);
+    reference_shot_close(&shot);
     return good && session->sink.errors == 0;
 }
 

@@ -2,7 +2,7 @@
 
 #include "diag/diag_text.h"
 #include "grammar/ir.h"
-#include "render/by_reference.h"
+#include "render/reference_shot.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -79,13 +79,14 @@ static bool take(struct picture_kit *kit, struct session *session, const struct 
 }
 
 static bool take_by_reference(struct session *session, struct image *image) {
-    struct exact exact;
+    struct reference_shot shot;
     struct reference_statistics statistics;
-    struct exact_options options = {.as_file = true, .no_cache = true};
-    bool good = exact_open(&exact, session, 0, options) == SHOT_OK &&
-                image_init(image, exact.settings.width, exact.settings.height) &&
-                exact_take(&exact, image, NULL, NULL, &statistics) == SHOT_OK && session->sink.errors == 0;
-    exact_close(&exact);
+    struct reference_shot_options options = {.as_file = true, .no_cache = true};
+    bool good = reference_shot_open(&shot, session, 0, options) == SHOT_OK &&
+                image_init(image, shot.settings.width, shot.settings.height) &&
+                reference_shot_take(&shot, image, NULL, NULL, &statistics) == SHOT_OK &&
+                session->sink.errors == 0;
+    reference_shot_close(&shot);
     return good;
 }
 

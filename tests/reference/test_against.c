@@ -8,7 +8,7 @@
 #include "files/output.h"
 #include "grammar/ir.h"
 #include "grammar/print/ir_print.h"
-#include "render/by_reference.h"
+#include "render/reference_shot.h"
 #include "tests/generate/generate.h"
 
 #include <stdio.h>
@@ -143,14 +143,14 @@ static bool take_device(struct picture_kit *kit, struct session *session, struct
 }
 
 static bool take_reference(struct session *session, struct pair *p) {
-    struct exact exact;
+    struct reference_shot shot;
     struct reference_statistics statistics;
     bool good =
-        exact_open(&exact, session, 0, (struct exact_options){.as_file = true, .no_cache = true}) ==
-            SHOT_OK &&
-        exact_take(&exact, &p->reference, NULL, NULL, &statistics) == SHOT_OK &&
-        reference_source_hits(&exact.source, &exact.settings, p->reference_hits, NULL) == REFERENCE_DONE;
-    exact_close(&exact);
+        reference_shot_open(&shot, session, 0,
+                            (struct reference_shot_options){.as_file = true, .no_cache = true}) == SHOT_OK &&
+        reference_shot_take(&shot, &p->reference, NULL, NULL, &statistics) == SHOT_OK &&
+        reference_source_hits(&shot.source, &shot.settings, p->reference_hits, NULL) == REFERENCE_DONE;
+    reference_shot_close(&shot);
     return good;
 }
 

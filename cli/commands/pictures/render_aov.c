@@ -9,7 +9,7 @@
 #include "render/aov/aov.h"
 #include "render/aov/matte.h"
 #include "render/aov/names.h"
-#include "render/by_reference.h"
+#include "render/reference_shot.h"
 #include "scene/view.h"
 
 #include <stdio.h>
@@ -173,16 +173,16 @@ static bool report(void *context, double fraction) {
     return stays(context, fraction);
 }
 
-static enum shot_status hits_by_reference(struct render_job *job, struct exact *exact) {
+static enum shot_status hits_by_reference(struct render_job *job, struct reference_shot *shot) {
     struct render_aovs *a = job->aovs;
-    const struct view_camera *camera = &exact->view.camera;
+    const struct view_camera *camera = &shot->view.camera;
     struct render_progress bar = progress_callback(&job->progress);
     const struct reference_progress progress = {report, &bar};
     const enum reference_result result =
-        reference_source_hits(&exact->source, &exact->settings, a->hits, &progress);
+        reference_source_hits(&shot->source, &shot->settings, a->hits, &progress);
     if (result == REFERENCE_CANCELLED)
         return SHOT_CANCELLED;
-    const struct reference *reference = makes_mattes(job) ? reference_source_get(&exact->source) : NULL;
+    const struct reference *reference = makes_mattes(job) ? reference_source_get(&shot->source) : NULL;
     if (result != REFERENCE_DONE || (makes_mattes(job) && !reference))
         return shot_no_memory(&job->session, "the reference");
     aov_fill(&a->planes, &job->session.resolved, camera, a->hits);
@@ -279,8 +279,8 @@ static bool begin(struct render_job *job) {
     return a->hits || !aov_needs_hits(job->cli->options.aovs);
 }
 
-int render_make_aovs(struct render_job *job, struct exact *exact) {
-    const struct render_estimate *estimate = exact ? NULL : render_estimate_of(job);
+int render_make_aovs(struct render_job *job, struct reference_shot *shot) {
+    const struct render_estimate *estimate = shot ? NULL : render_estimate_of(job);
     if (!job->cli->options.aovs)
         return CLI_OK;
     if (!begin(job))
@@ -288,7 +288,7 @@ int render_make_aovs(struct render_job *job, struct exact *exact) {
     aov_fill_samples(&job->aovs->planes, estimate ? estimate->error : NULL,
                      estimate ? estimate->samples : NULL, (uint32_t)job->session.image->samples);
     if (job->aovs->hits) {
-        const enum shot_status status = exact ? hits_by_reference(job, exact) : hits_by_device(job);
+        const enum shot_status status = shot ? hits_by_reference(job, shot) : hits_by_device(job);
         if (status != SHOT_OK)
             return render_failed(job, status);
     }

@@ -171,11 +171,11 @@ static int write_made(struct render_job *job, const char *path, const struct str
 void render_encode(struct render_job *job, enum image_format format, struct strbuf *out) {
     const struct image_display display = {job->session.image->tone, job->session.image->transfer};
     const bool is_scaled = job->cli->options.measure.scale_width != 0;
-    const bool exact = cli_device_is_reference(job->cli);
+    const bool by_reference = cli_device_is_reference(job->cli);
     const struct provenance made = {.session = &job->session,
-                                    .gpu = exact ? NULL : job->gpu,
+                                    .gpu = by_reference ? NULL : job->gpu,
                                     .camera = job->camera,
-                                    .is_double = exact || job->shot.flat.is_double,
+                                    .is_double = by_reference || job->shot.flat.is_double,
                                     .audits = job->stats.has_audit,
                                     .scaled_width = is_scaled ? job->image.width : 0,
                                     .scaled_height = is_scaled ? job->image.height : 0,

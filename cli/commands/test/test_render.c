@@ -9,9 +9,9 @@
 #include "core/nearest.h"
 #include "grammar/ir.h"
 #include "load/check.h"
-#include "render/by_reference.h"
 #include "render/live/live.h"
 #include "render/record/record.h"
+#include "render/reference_shot.h"
 
 #include <string.h>
 
@@ -223,9 +223,9 @@ static bool report(void *context, double fraction) {
     return progress->report(progress->context, fraction);
 }
 
-static int trace_exactly(struct tester *t, struct test_case *test, struct session *session) {
+static int trace_by_reference(struct tester *t, struct test_case *test, struct session *session) {
     const struct cli_options *options = &t->run->cli->options;
-    struct exact exact;
+    struct reference_shot shot;
     struct reference_statistics statistics;
     struct render_progress callback = progress_callback(&t->progress);
     const struct reference_progress progress = {report, &callback};
@@ -234,11 +234,11 @@ static int trace_exactly(struct tester *t, struct test_case *test, struct sessio
     const int fits = fit_image(t, test, session);
     if (fits != CLI_OK)
         return fits;
-    enum shot_status status =
-        exact_open(&exact, session, camera, (struct exact_options){.no_cache = options->no_cache});
+    enum shot_status status = reference_shot_open(
+        &shot, session, camera, (struct reference_shot_options){.no_cache = options->no_cache});
     if (status == SHOT_OK)
-        status = exact_take(&exact, &t->image, NULL, &progress, &statistics);
-    exact_close(&exact);
+        status = reference_shot_take(&shot, &t->image, NULL, &progress, &statistics);
+    reference_shot_close(&shot);
     return ended(t, test, session, status, errors);
 }
 
@@ -291,7 +291,7 @@ static int make(struct tester *t, struct test_case *test, struct test_made *made
         return fail(t, test, missing);
     if (t->is_reference) {
         made->display = (struct image_display){session->image->tone, session->image->transfer};
-        status = trace_exactly(t, test, session);
+        status = trace_by_reference(t, test, session);
     } else {
         status = trace(t, test, &made->display);
         session = t->live.session;

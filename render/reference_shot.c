@@ -1,4 +1,4 @@
-#include "render/by_reference.h"
+#include "render/reference_shot.h"
 
 #include "core/heap.h"
 #include "load/where.h"
@@ -7,28 +7,28 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum shot_status exact_open(struct exact *exact, struct session *session, uint32_t camera,
-                            struct exact_options options) {
-    *exact = (struct exact){.session = session};
-    if (!session_view(session, camera, &exact->view))
+enum shot_status reference_shot_open(struct reference_shot *shot, struct session *session, uint32_t camera,
+                                     struct reference_shot_options options) {
+    *shot = (struct reference_shot){.session = session};
+    if (!session_view(session, camera, &shot->view))
         return shot_no_memory(session, "the view");
-    if (!where_camera_fits(session, camera, &exact->view))
+    if (!where_camera_fits(session, camera, &shot->view))
         return SHOT_SCENE;
-    struct reference_input input = {.scene = &session->resolved, .view = &exact->view};
-    exact->settings =
+    struct reference_input input = {.scene = &session->resolved, .view = &shot->view};
+    shot->settings =
         reference_settings_of(session->scene, session->image, &session->options.limits, options.as_file);
-    exact->store_path = options.no_cache ? NULL : folder_store_path(REFERENCE_CACHE_NAME);
-    struct folder_store store = {exact->store_path, REFERENCE_CACHE_BYTES};
-    reference_source_init(&exact->source, &input, store);
+    shot->store_path = options.no_cache ? NULL : folder_store_path(REFERENCE_CACHE_NAME);
+    struct folder_store store = {shot->store_path, REFERENCE_CACHE_BYTES};
+    reference_source_init(&shot->source, &input, store);
     return SHOT_OK;
 }
 
-void exact_close(struct exact *exact) {
-    if (!exact)
+void reference_shot_close(struct reference_shot *shot) {
+    if (!shot)
         return;
-    reference_source_finish(&exact->source);
-    free(exact->store_path);
-    exact->store_path = NULL;
+    reference_source_finish(&shot->source);
+    free(shot->store_path);
+    shot->store_path = NULL;
 }
 
 static void report_fault(struct session *session, enum diag_code code, const struct reference_fault *fault,
@@ -44,11 +44,11 @@ static void report_fault(struct session *session, enum diag_code code, const str
 }
 
 // Floats for the image; a pixel with a value that no float holds is marked as not a number.
-static struct reference_fault round_picture(const struct exact *exact, const double *values,
+static struct reference_fault round_picture(const struct reference_shot *shot, const double *values,
                                             struct image *image) {
     struct reference_fault fault = {.body = HIT_NONE};
-    const uint32_t width = exact->settings.width;
-    const size_t count = (size_t)width * exact->settings.height;
+    const uint32_t width = shot->settings.width;
+    const size_t count = (size_t)width * shot->settings.height;
     for (size_t i = 0; i < count; i++) {
         const double *from = values + 3 * i;
         float *to = image->rgb + 3 * i;
@@ -64,28 +64,28 @@ static struct reference_fault round_picture(const struct exact *exact, const dou
     return fault;
 }
 
-enum shot_status exact_take(struct exact *exact, struct image *image, double *rgb,
-                            const struct reference_progress *progress,
-                            struct reference_statistics *statistics) {
-    size_t count = heap_times(heap_times(exact->settings.width, exact->settings.height), 3);
+enum shot_status reference_shot_take(struct reference_shot *shot, struct image *image, double *rgb,
+                                     const struct reference_progress *progress,
+                                     struct reference_statistics *statistics) {
+    size_t count = heap_times(heap_times(shot->settings.width, shot->settings.height), 3);
     double *values = rgb ? rgb : heap_array(count, sizeof *values);
     if (!values)
-        return shot_no_memory(exact->session, "the reference");
+        return shot_no_memory(shot->session, "the reference");
     enum reference_result result =
-        reference_source_render(&exact->source, &exact->settings, values, progress, statistics);
+        reference_source_render(&shot->source, &shot->settings, values, progress, statistics);
     struct reference_fault too_large = {0};
     if (result == REFERENCE_DONE)
-        too_large = round_picture(exact, values, image);
+        too_large = round_picture(shot, values, image);
     if (!rgb)
         free(values);
     if (result != REFERENCE_DONE)
         return result == REFERENCE_CANCELLED ? SHOT_CANCELLED
-                                             : shot_no_memory(exact->session, "the reference");
+                                             : shot_no_memory(shot->session, "the reference");
     const bool is_nested = statistics->not_finite.is_nested;
-    report_fault(exact->session, is_nested ? DIAG_LIMIT : DIAG_NOT_FINITE, &statistics->not_finite,
+    report_fault(shot->session, is_nested ? DIAG_LIMIT : DIAG_NOT_FINITE, &statistics->not_finite,
                  is_nested ? WHERE_NESTED : WHERE_NOT_FINITE);
-    report_fault(exact->session, DIAG_NOT_FINITE, &too_large, "got a value that is too large for a float");
-    report_fault(exact->session, DIAG_PATH_SEGMENTS, &statistics->over_segments, WHERE_OVER_SEGMENTS);
-    report_fault(exact->session, DIAG_REFERENCE_CUT, &statistics->cut_short, WHERE_CUT_SHORT);
+    report_fault(shot->session, DIAG_NOT_FINITE, &too_large, "got a value that is too large for a float");
+    report_fault(shot->session, DIAG_PATH_SEGMENTS, &statistics->over_segments, WHERE_OVER_SEGMENTS);
+    report_fault(shot->session, DIAG_REFERENCE_CUT, &statistics->cut_short, WHERE_CUT_SHORT);
     return SHOT_OK;
 }
