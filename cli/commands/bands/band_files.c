@@ -1,9 +1,9 @@
 // From bands on the disk to the files of their picture.
 #include "cli/commands/bands/bands_run.h"
-#include "cli/commands/pictures/provenance.h"
 #include "cli/commands/pictures/row_files.h"
 #include "cli/made.h"
 #include "core/clock.h"
+#include "render/record/provenance.h"
 
 #include "grammar/ir.h"
 
@@ -35,7 +35,7 @@ static struct image_texts texts_of(struct bands_run *run, enum image_format form
                                     .is_double = job->shot.flat.is_double,
                                     .format = format,
                                     .coding = render_coding(&job->cli->options, format)};
-    return job->is_part ? (struct image_texts){0} : provenance_texts(job->cli, &made);
+    return job->is_part ? (struct image_texts){0} : provenance_texts(&made, &job->cli->arena);
 }
 
 // `texts`: of the head; NULL: those of the whole picture.

@@ -1,8 +1,8 @@
 // Pictures of a batch after tracing: encoded and written beside the next one's tracing.
 #include "cli/commands/batch/batch_run.h"
 #include "cli/commands/parts/part_made.h"
-#include "cli/commands/pictures/provenance.h"
 #include "cli/made.h"
+#include "render/record/provenance.h"
 
 #include <string.h>
 
@@ -46,8 +46,9 @@ static struct image_texts texts_of(struct batch_run *run, enum image_format form
                                           .is_double = run->live.shot.flat.is_double,
                                           .format = format,
                                           .coding = render_coding(&run->cli->options, format)};
-    return has_film(run) || has_sheet(run) || run->outputs.is_part ? (struct image_texts){0}
-                                                                   : provenance_texts(run->cli, &provenance);
+    return has_film(run) || has_sheet(run) || run->outputs.is_part
+               ? (struct image_texts){0}
+               : provenance_texts(&provenance, &run->cli->arena);
 }
 
 void batch_encode(struct batch_run *run, struct batch_made *made) {

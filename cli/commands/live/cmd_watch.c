@@ -1,7 +1,6 @@
 // glint render SCENE --watch: a picture now, and one after each change of a file that it is made from.
 #include "cli/commands/commands.h"
 #include "cli/commands/live/coarse.h"
-#include "cli/commands/pictures/provenance.h"
 #include "cli/commands/render_job.h"
 #include "cli/device.h"
 #include "cli/made.h"
@@ -10,6 +9,7 @@
 #include "grammar/ir.h"
 #include "picture/write/image.h"
 #include "render/live/live_report.h"
+#include "render/record/provenance.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -122,7 +122,7 @@ static int write_picture(struct watching *w, double *encode_seconds) {
                                     .is_double = w->live.shot.flat.is_double,
                                     .format = w->format,
                                     .coding = w->image.coding};
-    w->image.texts = provenance_texts(w->cli, &made);
+    w->image.texts = provenance_texts(&made, &w->cli->arena);
     return encode_and_write(w, encode_seconds);
 }
 

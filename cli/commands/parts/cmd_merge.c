@@ -2,13 +2,13 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/parts/merge_rows.h"
 #include "cli/commands/pictures/done.h"
-#include "cli/commands/pictures/provenance.h"
 #include "cli/commands/render_job.h"
 #include "cli/made.h"
 #include "cli/progress.h"
 #include "core/ranges.h"
 #include "render/frames/frame_name.h"
 #include "render/parts/parts.h"
+#include "render/record/provenance.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -109,8 +109,8 @@ static bool is_done(struct render_job *job) {
     const struct cli_output *output = &job->outputs[0];
     if (!cli->options.batch.skip_done || !job->record || !*job->record)
         return false;
-    const struct image_texts texts =
-        provenance_of_line(cli, job->record, output->format, render_coding(&cli->options, output->format));
+    const struct image_texts texts = provenance_of_line(
+        job->record, output->format, render_coding(&cli->options, output->format), &cli->arena);
     const bool done = done_picture(cli, output->path, &texts);
     if (done && !cli->options.quiet)
         fprintf(stderr, "glint: %s is done already\n", output->path);

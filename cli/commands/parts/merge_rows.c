@@ -1,8 +1,8 @@
 #include "cli/commands/parts/merge_rows.h"
 
-#include "cli/commands/pictures/provenance.h"
 #include "cli/commands/pictures/row_files.h"
 #include "core/heap.h"
+#include "render/record/provenance.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -90,7 +90,7 @@ static int write_picture(struct render_job *job, struct merging *m) {
         .height = job->image.height,
         .take = take,
         .context = m,
-        .texts = job->record ? provenance_of_line(job->cli, job->record, output->format, coding)
+        .texts = job->record ? provenance_of_line(job->record, output->format, coding, &job->cli->arena)
                              : (struct image_texts){0},
         .coding = coding};
     bool ended;

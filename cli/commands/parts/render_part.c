@@ -1,12 +1,12 @@
 // A render job that makes a part of a picture.
 #include "cli/commands/parts/part_made.h"
-#include "cli/commands/pictures/provenance.h"
 #include "cli/commands/render_job.h"
 #include "cli/device.h"
 #include "core/hash128.h"
 #include "core/heap.h"
 #include "reference/cache.h"
 #include "render/parts/parts.h"
+#include "render/record/provenance.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -223,7 +223,7 @@ void part_describe(struct cli *cli, const struct shot *shot, uint32_t camera, st
                                     .camera = camera,
                                     .is_double = shot->flat.is_double,
                                     .format = IMAGE_PNG};
-    provenance_line(cli, &made, part->record, sizeof part->record);
+    provenance_line(&made, &cli->arena, part->record, sizeof part->record);
 }
 
 void render_fill_part(struct render_job *job) {

@@ -1,10 +1,10 @@
 #include "cli/commands/pictures/done.h"
 
-#include "cli/commands/pictures/provenance.h"
 #include "cli/commands/render_job.h"
 #include "cli/device.h"
 #include "files/stream.h"
 #include "picture/metrics/picture_file.h"
+#include "render/record/provenance.h"
 #include "render/record/record.h"
 
 #include <stdio.h>
@@ -112,6 +112,7 @@ bool done_is_there(struct cli *cli, const struct cli_output *output, const char 
     const struct provenance made = {.session = wish->session,
                                     .gpu = wish->gpu,
                                     .camera = wish->camera,
+                                    .as_file = cli->options.as_file,
                                     .format = output->is_part ? IMAGE_PNG : output->format,
                                     .coding = output->is_part ? (struct image_coding){0}
                                                               : render_coding(&cli->options, output->format)};
@@ -119,7 +120,7 @@ bool done_is_there(struct cli *cli, const struct cli_output *output, const char 
     for (int is_double = 0; is_double < 2 && !done; is_double++) {
         struct provenance one = made;
         one.is_double = is_double;
-        const struct image_texts texts = provenance_texts(cli, &one);
+        const struct image_texts texts = provenance_texts(&one, &cli->arena);
         done = output->is_part ? done_part(cli, path, wish->part, &texts) : done_picture(cli, path, &texts);
     }
     return done;

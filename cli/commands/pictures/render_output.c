@@ -1,10 +1,10 @@
 // What render writes: its pictures.
-#include "cli/commands/pictures/provenance.h"
 #include "cli/commands/render_job.h"
 #include "cli/device.h"
 #include "core/clock.h"
 #include "core/timeline.h"
 #include "grammar/ir.h"
+#include "render/record/provenance.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -170,24 +170,27 @@ static int write_made(struct render_job *job, const char *path, const struct str
 
 void render_encode(struct render_job *job, enum image_format format, struct strbuf *out) {
     const struct image_display display = {job->session.image->tone, job->session.image->transfer};
-    const bool is_scaled = job->cli->options.measure.scale_width != 0;
+    const struct cli_options *options = &job->cli->options;
+    const bool is_scaled = options->measure.scale_width != 0;
     const bool by_reference = cli_device_is_reference(job->cli);
     const struct provenance made = {.session = &job->session,
                                     .gpu = by_reference ? NULL : job->gpu,
                                     .camera = job->camera,
                                     .is_double = by_reference || job->shot.flat.is_double,
+                                    .as_file = options->as_file,
                                     .audits = job->stats.has_audit,
+                                    .max_off = options->has_max_off ? options->max_off : -1,
                                     .scaled_width = is_scaled ? job->image.width : 0,
                                     .scaled_height = is_scaled ? job->image.height : 0,
                                     .format = format,
-                                    .coding = render_coding(&job->cli->options, format)};
+                                    .coding = render_coding(options, format)};
     job->display = display;
     job->image.coding = made.coding;
     // Parts are joined without a session, and no part of a picture is made by the command of all of it.
-    job->image.texts =
-        job->session.scene && !job->is_part ? provenance_texts(job->cli, &made) : (struct image_texts){0};
+    job->image.texts = job->session.scene && !job->is_part ? provenance_texts(&made, &job->cli->arena)
+                                                           : (struct image_texts){0};
     if (job->record)
-        job->image.texts = provenance_of_line(job->cli, job->record, format, made.coding);
+        job->image.texts = provenance_of_line(job->record, format, made.coding, &job->cli->arena);
     image_encode(&job->image, format, display, out);
 }
 

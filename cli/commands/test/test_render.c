@@ -2,7 +2,6 @@
 // a scene is read once for its pictures; meshes, images and trees are kept from scene to scene (render/live).
 #include "cli/commands/test/test.h"
 
-#include "cli/commands/pictures/provenance.h"
 #include "cli/device.h"
 #include "cli/progress.h"
 #include "core/clock.h"
@@ -10,6 +9,7 @@
 #include "grammar/ir.h"
 #include "load/check.h"
 #include "render/live/live.h"
+#include "render/record/provenance.h"
 #include "render/record/record.h"
 #include "render/reference_shot.h"
 
@@ -270,7 +270,7 @@ static void encode(struct tester *t, const struct test_case *test, const struct 
         .is_double = t->is_reference || t->live.shot.flat.is_double,
         .format = test->format,
         .coding = t->image.coding};
-    t->image.texts = provenance_texts(cli, &provenance);
+    t->image.texts = provenance_texts(&provenance, &cli->arena);
     strbuf_clear(&made->file);
     image_encode(&t->image, test->format, made->display, &made->file);
     t->image.texts = (struct image_texts){0};

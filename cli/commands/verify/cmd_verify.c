@@ -2,13 +2,13 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/verify/verify.h"
 
-#include "cli/commands/pictures/provenance.h"
 #include "cli/commands/render_job.h"
 #include "cli/device.h"
 #include "core/heap.h"
 #include "core/number.h"
 #include "files/files.h"
 #include "grammar/ir.h"
+#include "render/record/provenance.h"
 #include "scene/content.h"
 
 #include <math.h>

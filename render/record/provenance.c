@@ -1,4 +1,4 @@
-#include "cli/commands/pictures/provenance.h"
+#include "render/record/provenance.h"
 
 #include "grammar/ir.h"
 #include "render/record/record.h"
@@ -31,13 +31,13 @@ static bool is_repeatable(const struct provenance *made) {
            s->image->samples <= s->scene->image.min_samples;
 }
 
-static struct record_command command_of(struct cli *cli, const struct provenance *made) {
+static struct record_command command_of(const struct provenance *made) {
     const struct session *s = made->session;
     const struct session_options *o = &s->options;
     const struct ir_cameras *cameras = &s->scene->cameras;
     const bool is_named = made->camera > 0 && made->camera < cameras->count;
     const bool audits = made->audits && made->gpu;
-    return (struct record_command){.scene = cli_is_stream(cli, o->path.ptr) ? STR("-") : o->path,
+    return (struct record_command){.scene = o->overlay_count ? STR("-") : o->path,
                                    .camera = is_named ? cameras->items[made->camera].name : STR(""),
                                    .sets = o->sets,
                                    .set_count = o->set_count,
@@ -48,28 +48,28 @@ static struct record_command command_of(struct cli *cli, const struct provenance
                                    .samples = s->image->samples,
                                    .noise = made->gpu && o->error > 0 && s->image->error > 0 ? o->error : 0,
                                    .is_reference = !made->gpu,
-                                   .as_file = cli->options.as_file,
+                                   .as_file = made->as_file,
                                    .audit = audits,
-                                   .max_off = audits && cli->options.has_max_off ? cli->options.max_off : -1,
+                                   .max_off = audits ? made->max_off : -1,
                                    .coding = made->coding};
 }
 
-struct image_texts provenance_texts(struct cli *cli, const struct provenance *made) {
+struct image_texts provenance_texts(const struct provenance *made, struct arena *arena) {
     if (!has_place(made->format) || !is_repeatable(made))
         return (struct image_texts){0};
-    const struct record record = {.command = command_of(cli, made),
+    const struct record record = {.command = command_of(made),
                                   .version = STR(GLINT_VERSION),
-                                  .device = provenance_device(&cli->arena, made->gpu),
+                                  .device = provenance_device(arena, made->gpu),
                                   .session = made->session,
                                   .is_double = made->is_double,
                                   .scaled_width = made->scaled_width,
                                   .scaled_height = made->scaled_height,
                                   .format = made->format};
-    return record_texts(&record, &cli->arena);
+    return record_texts(&record, arena);
 }
 
-void provenance_line(struct cli *cli, const struct provenance *made, char *line, size_t size) {
-    const struct image_texts texts = provenance_texts(cli, made);
+void provenance_line(const struct provenance *made, struct arena *arena, char *line, size_t size) {
+    const struct image_texts texts = provenance_texts(made, arena);
     struct strbuf text;
     strbuf_init(&text);
     for (uint32_t i = 0; i < texts.count; i++)
@@ -79,9 +79,9 @@ void provenance_line(struct cli *cli, const struct provenance *made, char *line,
     strbuf_finish(&text);
 }
 
-struct image_texts provenance_of_line(struct cli *cli, const char *line, enum image_format format,
-                                      struct image_coding coding) {
-    struct image_text *items = ARENA_ARRAY(&cli->arena, struct image_text, RECORD_FIELDS);
+struct image_texts provenance_of_line(const char *line, enum image_format format, struct image_coding coding,
+                                      struct arena *arena) {
+    struct image_text *items = ARENA_ARRAY(arena, struct image_text, RECORD_FIELDS);
     struct image_texts texts = {items, 0};
     struct strbuf text;
     strbuf_init(&text);
@@ -94,7 +94,7 @@ struct image_texts provenance_of_line(struct cli *cli, const char *line, enum im
         if (field == RECORD_COMMAND)
             record_add_coding(&text, format, &coding);
         items[texts.count++] =
-            (struct image_text){record_keywords[field], arena_copy(&cli->arena, strbuf_view(&text)).ptr};
+            (struct image_text){record_keywords[field], arena_copy(arena, strbuf_view(&text)).ptr};
         line += length + (line[length] == '\t');
     }
     strbuf_finish(&text);
