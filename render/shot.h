@@ -15,7 +15,8 @@ enum shot_status {
     SHOT_SCENE,  // the sink has errors
     SHOT_DEVICE, // see gpu_error
     SHOT_CANCELLED,
-    SHOT_ENDED, // shot_wish.ready did not want to go on
+    SHOT_NO_MEMORY, // the sink does not say so
+    SHOT_ENDED,     // shot_wish.ready did not want to go on
 };
 
 struct precision_choice;

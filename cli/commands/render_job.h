@@ -12,7 +12,7 @@
 #include "render/stats/stats.h"
 
 struct cli_opening;
-struct render_aovs;
+struct layers;
 struct reference_shot;
 
 struct render_job {
@@ -36,7 +36,7 @@ struct render_job {
     uint32_t camera;              // of the picture that is written
     struct image_display display; // of the last picture that was encoded
     struct strbuf *kept;          // for who wants the picture's file, and none written; NULL: the outputs are
-    struct render_aovs *aovs;     // while a camera's picture has some; NULL: none
+    struct layers *layers;        // while a camera's picture has some; NULL: none
     struct strbuf note;           // what the picture states of itself; empty: nothing
     struct strbuf audit_note;     // what the audit says of it
     // --time: what ends the frame, and the session's image with the samples that were made.
