@@ -1,5 +1,5 @@
 // glint render --device reference: the same files as a device makes, by the tracer in double precision.
-#include "cli/commands/render_job.h"
+#include "cli/commands/rendering.h"
 #include "core/json_write.h"
 #include "render/reference_shot.h"
 
@@ -72,60 +72,60 @@ static void json_of(const struct reference_shot *shot, const struct reference_st
     json_report_end(&w);
 }
 
-static int tell_statistics(struct render_job *job, const struct reference_shot *shot,
+static int tell_statistics(struct rendering *r, const struct reference_shot *shot,
                            const struct reference_statistics *statistics) {
     struct strbuf text;
     strbuf_init(&text);
-    (job->cli->options.stats == CLI_STATS_JSON ? json_of : text_of)(shot, statistics, &text);
-    int status = render_tell_stats(job, strbuf_view(&text));
+    (r->cli->options.stats == CLI_STATS_JSON ? json_of : text_of)(shot, statistics, &text);
+    int status = render_tell_stats(r, strbuf_view(&text));
     strbuf_finish(&text);
     return status;
 }
 
-static void tell_end(struct render_job *job, const struct reference_shot *shot, uint32_t camera,
+static void tell_end(struct rendering *r, const struct reference_shot *shot, uint32_t camera,
                      const struct reference_statistics *statistics) {
-    if (job->cli->options.quiet)
+    if (r->cli->options.quiet)
         return;
-    render_tell_unused_error(job);
+    render_tell_unused_error(r);
     fprintf(stderr,
             "glint: the reference left out at most %.3g of a pixel's weight, which could add %.3g%s\n",
             statistics->left_weight_most, statistics->bound,
             shot->source.found ? " (picture from its cache)" : "");
-    render_tell_written(job, camera);
+    render_tell_written(r, camera);
 }
 
-static int render_camera(struct render_job *job, uint32_t camera) {
-    const struct cli_options *options = &job->cli->options;
+static int render_camera(struct rendering *r, uint32_t camera) {
+    const struct cli_options *options = &r->cli->options;
     struct reference_shot shot;
     struct reference_statistics statistics;
-    struct render_progress callback = progress_callback(&job->progress);
+    struct render_progress callback = progress_callback(&r->progress);
     struct reference_progress progress = {report, &callback};
     enum shot_status taken = reference_shot_open(
-        &shot, &job->session, camera, (struct reference_shot_options){options->as_file, options->no_cache});
-    progress_begin(&job->progress, options->quiet);
+        &shot, &r->session, camera, (struct reference_shot_options){options->as_file, options->no_cache});
+    progress_begin(&r->progress, options->quiet);
     if (taken == SHOT_OK)
-        taken = reference_shot_take(&shot, &job->image, NULL, &progress, &statistics);
-    int status = taken == SHOT_OK ? CLI_OK : taken == SHOT_CANCELLED ? render_interrupted(job) : CLI_SCENE;
+        taken = reference_shot_take(&shot, &r->image, NULL, &progress, &statistics);
+    int status = taken == SHOT_OK ? CLI_OK : taken == SHOT_CANCELLED ? render_interrupted(r) : CLI_SCENE;
     if (status == CLI_OK)
-        status = render_make_aovs(job, &shot);
-    progress_end(&job->progress);
+        status = render_make_aovs(r, &shot);
+    progress_end(&r->progress);
     if (status == CLI_OK)
-        status = render_write_pictures(job, camera);
+        status = render_write_pictures(r, camera);
     if (status == CLI_OK)
-        status = render_write_aovs(job, camera);
-    render_drop_aovs(job);
+        status = render_write_aovs(r, camera);
+    render_drop_aovs(r);
     if (status == CLI_OK && options->stats)
-        status = tell_statistics(job, &shot, &statistics);
+        status = tell_statistics(r, &shot, &statistics);
     if (status == CLI_OK)
-        tell_end(job, &shot, camera, &statistics);
+        tell_end(r, &shot, camera, &statistics);
     reference_shot_close(&shot);
     return status;
 }
 
-int render_by_reference(struct render_job *job, uint32_t first, uint32_t end) {
+int render_by_reference(struct rendering *r, uint32_t first, uint32_t end) {
     int status = CLI_OK;
     for (uint32_t i = first; i < end && status == CLI_OK; i++)
-        status = job->done && job->done[i] ? CLI_OK : render_camera(job, i);
-    int reported = cli_report(job->cli, &job->session, !job->cli->options.quiet);
+        status = r->done && r->done[i] ? CLI_OK : render_camera(r, i);
+    int reported = cli_report(r->cli, &r->session, !r->cli->options.quiet);
     return status != CLI_OK ? status : reported;
 }

@@ -2,12 +2,12 @@
 #ifndef GLINT_CLI_COMMANDS_BANDS_BANDS_RUN_H
 #define GLINT_CLI_COMMANDS_BANDS_BANDS_RUN_H
 
-#include "cli/commands/render_job.h"
+#include "cli/commands/rendering.h"
 #include "core/parallel.h"
 #include "render/parts/bands.h"
 
 struct bands_run {
-    struct render_job *job;
+    struct rendering *r;
     uint32_t camera;
     const char *path; // of the checkpoint
     struct bands bands;

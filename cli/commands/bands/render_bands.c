@@ -21,17 +21,17 @@ enum {
 
 // ---- whether
 
-static bool are_asked_for(const struct render_job *job) {
-    const struct cli_part *part = &job->cli->options.part;
-    return cli_option_place(job->cli, "bands") || part->resume || part->partial || part->spreads;
+static bool are_asked_for(const struct rendering *r) {
+    const struct cli_part *part = &r->cli->options.part;
+    return cli_option_place(r->cli, "bands") || part->resume || part->partial || part->spreads;
 }
 
-static int place_of(const struct render_job *job) {
+static int place_of(const struct rendering *r) {
     static const char *const options[] = {"resume", "bands", "partial"};
     for (size_t i = 0; i < sizeof options / sizeof *options; i++)
-        if (cli_option_place(job->cli, options[i]))
-            return cli_option_place(job->cli, options[i]);
-    return cli_operand_place(job->cli, 0);
+        if (cli_option_place(r->cli, options[i]))
+            return cli_option_place(r->cli, options[i]);
+    return cli_operand_place(r->cli, 0);
 }
 
 static bool is_file(const struct cli_output *output) {
@@ -39,23 +39,23 @@ static bool is_file(const struct cli_output *output) {
 }
 
 // The output that the checkpoint lies beside; NULL: there is none.
-static const struct cli_output *first_file(const struct render_job *job) {
-    for (uint32_t i = 0; i < job->output_count; i++)
-        if (is_file(&job->outputs[i]))
-            return &job->outputs[i];
+static const struct cli_output *first_file(const struct rendering *r) {
+    for (uint32_t i = 0; i < r->output_count; i++)
+        if (is_file(&r->outputs[i]))
+            return &r->outputs[i];
     return NULL;
 }
 
 // What needs all pixels at once; NULL: nothing of it is asked for.
-static const char *obstacle(const struct render_job *job) {
-    const struct cli_options *o = &job->cli->options;
-    if (cli_device_is_reference(job->cli))
+static const char *obstacle(const struct rendering *r) {
+    const struct cli_options *o = &r->cli->options;
+    if (cli_device_is_reference(r->cli))
         return "the reference renders whole pictures: choose a device";
     if (o->audit || o->has_max_off)
         return "an audit is about a whole picture: leave '--audit' and '--max-off' out";
     if (o->measure.time_s > 0)
         return "a time ends whole pictures: leave '--time' out; '--resume' goes on later";
-    if (cli_option_place(job->cli, "max-error") || cli_option_place(job->cli, "max-time"))
+    if (cli_option_place(r->cli, "max-error") || cli_option_place(r->cli, "max-time"))
         return "settings are chosen by whole pictures: choose them first, and write them into the scene";
     if (o->measure.noise > 0)
         return "pixels that end by their error state an error of the whole picture: leave '--noise' out";
@@ -67,97 +67,98 @@ static const char *obstacle(const struct render_job *job) {
         return "'--repeat' times whole pictures: leave it out";
     if (o->part.has_samples)
         return "some of the samples are rendered at once: take a smaller --region or --tile instead";
-    if (!first_file(job))
+    if (!first_file(r))
         return "the checkpoint lies beside the picture's file: name one with -o";
     return NULL;
 }
 
-int render_judge_bands(struct render_job *job) {
-    job->cli->options.part.spreads = bands_spread(job->cli);
-    const char *why = are_asked_for(job) ? obstacle(job) : NULL;
-    return why ? cli_usage(job->cli, place_of(job), "this is not possible in bands: %s", why) : CLI_OK;
+int render_judge_bands(struct rendering *r) {
+    r->cli->options.part.spreads = bands_spread(r->cli);
+    const char *why = are_asked_for(r) ? obstacle(r) : NULL;
+    return why ? cli_usage(r->cli, place_of(r), "this is not possible in bands: %s", why) : CLI_OK;
 }
 
 // The first output whose format is made of all pixels at once; NULL: none.
-static const struct cli_output *whole_output(const struct render_job *job) {
-    for (uint32_t i = 0; i < job->output_count; i++)
-        if (!job->outputs[i].is_part && !image_rows_can(job->outputs[i].format))
-            return &job->outputs[i];
+static const struct cli_output *whole_output(const struct rendering *r) {
+    for (uint32_t i = 0; i < r->output_count; i++)
+        if (!r->outputs[i].is_part && !image_rows_can(r->outputs[i].format))
+            return &r->outputs[i];
     return NULL;
 }
 
 // A picture that could be held as a whole, and need not be.
-static bool saves_memory(const struct render_job *job) {
-    const struct part_region *region = &job->part.region;
-    return (uint64_t)region->width * region->height > WHOLE_PIXELS && !obstacle(job) && !whole_output(job) &&
-           !(job->session.image->error > 0);
+static bool saves_memory(const struct rendering *r) {
+    const struct part_region *region = &r->part.region;
+    return (uint64_t)region->width * region->height > WHOLE_PIXELS && !obstacle(r) && !whole_output(r) &&
+           !(r->session.image->error > 0);
 }
 
 // A picture that is too large to be held needs formats that can be written in rows.
-static int judge_formats(struct render_job *job) {
-    const struct cli_output *output = whole_output(job);
+static int judge_formats(struct rendering *r) {
+    const struct cli_output *output = whole_output(r);
     if (!output)
         return CLI_OK;
-    const int status = cli_usage(job->cli, output->arg ? output->arg : place_of(job),
+    const int status = cli_usage(r->cli, output->arg ? output->arg : place_of(r),
                                  "'%s' is of a format whose file is made of all pixels at once, and this "
                                  "picture has more than 64 megapixels",
                                  output->path);
-    diag_help(&job->cli->sink, "write .png, .exr, .pfm or .hdr, and convert that");
+    diag_help(&r->cli->sink, "write .png, .exr, .pfm or .hdr, and convert that");
     return status;
 }
 
-int render_plan_bands(struct render_job *job) {
-    const struct part_region *region = &job->part.region;
+int render_plan_bands(struct rendering *r) {
+    const struct part_region *region = &r->part.region;
     const bool is_large = (uint64_t)region->width * region->height > RANGE_PIXELS_MOST;
-    job->in_bands = is_large || are_asked_for(job) || saves_memory(job);
-    if (!job->in_bands)
+    r->in_bands = is_large || are_asked_for(r) || saves_memory(r);
+    if (!r->in_bands)
         return CLI_OK;
-    const char *why = obstacle(job);
+    const char *why = obstacle(r);
     if (why)
-        return cli_usage(job->cli, place_of(job),
+        return cli_usage(r->cli, place_of(r),
                          "this picture has more than 64 megapixels, and is rendered in bands: %s", why);
-    if (job->session.image->error > 0) {
-        const int status = cli_usage(job->cli, place_of(job),
+    if (r->session.image->error > 0) {
+        const int status = cli_usage(r->cli, place_of(r),
                                      "pixels that end by their error are not rendered in bands: the picture "
                                      "states an error of all its pixels");
-        diag_help(&job->cli->sink, "give all pixels the same samples: --set image.error=0");
+        diag_help(&r->cli->sink, "give all pixels the same samples: --set image.error=0");
         return status;
     }
-    job->image = (struct image){.width = region->width, .height = region->height};
-    return is_large ? judge_formats(job) : CLI_OK;
+    r->image = (struct image){.width = region->width, .height = region->height};
+    return is_large ? judge_formats(r) : CLI_OK;
 }
 
 // ---- how large
 
-static uint32_t rows_of(const struct render_job *job) {
-    const struct part *part = &job->part;
-    const bool is_cpu = gpu_info(job->gpu)->kind == GPU_CPU;
+static uint32_t rows_of(const struct rendering *r) {
+    const struct part *part = &r->part;
+    const bool is_cpu = gpu_info(r->gpu)->kind == GPU_CPU;
     const uint64_t paths = is_cpu ? PATHS_OF_CPU : PATHS_OF_GPU;
-    const uint32_t wanted = (uint32_t)job->cli->options.part.band_rows;
+    const uint32_t wanted = (uint32_t)r->cli->options.part.band_rows;
     uint64_t pixels = paths / part->samples;
     pixels = pixels < BAND_PIXELS ? pixels : BAND_PIXELS;
     const uint32_t rows = wanted ? wanted + TILE_ROWS - 1 : (uint32_t)(pixels / part->region.width);
     return rows < TILE_ROWS ? TILE_ROWS : rows / TILE_ROWS * TILE_ROWS;
 }
 
-struct shot_region render_first_region(struct render_job *job) {
-    const struct part_region *r = &job->part.region;
-    if (!job->in_bands && !job->is_part)
+struct shot_region render_first_region(struct rendering *r) {
+    const struct part_region *region = &r->part.region;
+    if (!r->in_bands && !r->is_part)
         return (struct shot_region){0};
-    const uint32_t rows = job->in_bands ? rows_of(job) : r->height;
-    return (struct shot_region){r->x, r->y, r->width, rows < r->height ? rows : r->height};
+    const uint32_t rows = r->in_bands ? rows_of(r) : region->height;
+    return (struct shot_region){region->x, region->y, region->width,
+                                rows < region->height ? rows : region->height};
 }
 
 // ---- the checkpoint
 
 static bool goes_on(void *context) {
     const struct bands_run *run = context;
-    return run->job->cli->options.part.resume && interrupt_signal() == 0;
+    return run->r->cli->options.part.resume && interrupt_signal() == 0;
 }
 
 static int refuse(struct bands_run *run, const char *words) {
-    struct cli *cli = run->job->cli;
-    const int status = cli_usage(cli, place_of(run->job), "'%s' %s", run->path, words);
+    struct cli *cli = run->r->cli;
+    const int status = cli_usage(cli, place_of(run->r), "'%s' %s", run->path, words);
     diag_help(&cli->sink, cli->options.part.resume
                               ? "remove it to begin anew"
                               : "go on from it with --resume, or remove it to begin anew");
@@ -165,34 +166,34 @@ static int refuse(struct bands_run *run, const char *words) {
 }
 
 static int begin_anew(struct bands_run *run, struct strbuf *error) {
-    struct render_job *job = run->job;
+    struct rendering *r = run->r;
     strbuf_clear(error);
-    run->is_open = bands_create(&run->bands, run->path, &job->part, rows_of(job), error);
+    run->is_open = bands_create(&run->bands, run->path, &r->part, rows_of(r), error);
     if (run->is_open)
         return CLI_OK;
-    cli_error(job->cli, error->len ? DIAG_OUTPUT : DIAG_OUT_OF_MEMORY, run->path, NULL, "%s",
+    cli_error(r->cli, error->len ? DIAG_OUTPUT : DIAG_OUT_OF_MEMORY, run->path, NULL, "%s",
               error->len ? error->data : "not enough memory for the checkpoint");
     return CLI_FILE;
 }
 
 // A checkpoint that is there without --resume may be the work of hours: it is not written over.
 static int go_on(struct bands_run *run, struct strbuf *error) {
-    struct render_job *job = run->job;
+    struct rendering *r = run->r;
     bool missing;
     run->is_open = bands_open(&run->bands, run->path, goes_on, run, &missing, error);
     if (missing)
         return begin_anew(run, error);
     if (!run->is_open)
         return refuse(run, error->len ? error->data : "needs more memory than there is");
-    if (!job->cli->options.part.resume)
+    if (!r->cli->options.part.resume)
         return refuse(run, "is there: a run before this one has left it");
-    const char *words = bands_difference(&run->bands, &job->part);
+    const char *words = bands_difference(&run->bands, &r->part);
     if (words)
-        return refuse(run, arena_format(&job->cli->arena, "%s this one", words).ptr);
+        return refuse(run, arena_format(&r->cli->arena, "%s this one", words).ptr);
     if (!run->bands.is_judged)
         return CLI_STOPPED;
     run->found = run->bands.done_count;
-    if (!job->cli->options.quiet)
+    if (!r->cli->options.quiet)
         fprintf(stderr, "glint: %u of %u bands are in %s already\n", run->found, run->bands.count, run->path);
     return CLI_OK;
 }
@@ -200,9 +201,9 @@ static int go_on(struct bands_run *run, struct strbuf *error) {
 static int open_checkpoint(struct bands_run *run) {
     struct strbuf error;
     strbuf_init(&error);
-    render_fill_part(run->job);
-    run->path = arena_format(&run->job->cli->arena, "%s" BANDS_ENDING,
-                             render_output_of(run->job, first_file(run->job), run->camera))
+    render_fill_part(run->r);
+    run->path = arena_format(&run->r->cli->arena, "%s" BANDS_ENDING,
+                             render_output_of(run->r, first_file(run->r), run->camera))
                     .ptr;
     const int status = go_on(run, &error);
     strbuf_finish(&error);
@@ -227,25 +228,25 @@ static void add_faults(const struct bands_faults *in, struct render_fault *fault
 }
 
 static int cannot_write(struct bands_run *run) {
-    cli_error(run->job->cli, DIAG_OUTPUT, run->path,
+    cli_error(run->r->cli, DIAG_OUTPUT, run->path,
               "a picture in bands needs 12 bytes of disk for each pixel while it is rendered",
               "cannot be written: %s", strerror(run->bands.spool.error));
     return CLI_FILE;
 }
 
 static int take_band(struct bands_run *run, uint32_t band) {
-    struct render_job *job = run->job;
-    struct shot *shot = &job->shot;
-    const struct render_progress progress = progress_callback(&job->progress);
+    struct rendering *r = run->r;
+    struct shot *shot = &r->shot;
+    const struct render_progress progress = progress_callback(&r->progress);
     struct render_statistics made;
     bands_aim(run, band, &shot->settings);
     if (!renderer_change(shot->renderer, &shot->flat, &shot->settings))
-        return render_failed(job, SHOT_DEVICE);
+        return render_failed(r, SHOT_DEVICE);
     const enum shot_status status = shot_take_silently(shot, &run->band, &progress, &made);
     if (status == SHOT_CANCELLED)
         return CLI_STOPPED;
     if (status != SHOT_OK)
-        return render_failed(job, status);
+        return render_failed(r, status);
     return bands_keep(run, band, run->band.rgb, &shot->settings, &made) ? CLI_OK : CLI_FILE;
 }
 
@@ -256,18 +257,18 @@ static void give_up(struct bands_run *run) {
 }
 
 static int take_bands(struct bands_run *run) {
-    struct render_job *job = run->job;
+    struct rendering *r = run->r;
     struct bands *bands = &run->bands;
     struct band_devices *devices;
     int status;
     if (!image_init(&run->band, bands->part.region.width, bands->rows)) {
-        cli_error(job->cli, DIAG_OUT_OF_MEMORY, run->path, NULL, "not enough memory for a band");
+        cli_error(r->cli, DIAG_OUT_OF_MEMORY, run->path, NULL, "not enough memory for a band");
         return CLI_SCENE;
     }
     status = bands_begin_devices(run, &devices);
     for (uint32_t band; status == CLI_OK && (band = bands_claim(run)) < bands->count;) {
-        job->progress.base = (double)bands->done_count / bands->count;
-        job->progress.share = 1.0 / bands->count;
+        r->progress.base = (double)bands->done_count / bands->count;
+        r->progress.share = 1.0 / bands->count;
         status = take_band(run, band);
     }
     if (status != CLI_OK)
@@ -283,15 +284,15 @@ static void report_faults(struct bands_run *run) {
     struct render_fault faults[RENDER_FAULT_KINDS] = {0};
     for (uint32_t i = 0; i < run->bands.count; i++)
         add_faults(&run->bands.faults[i], faults);
-    shot_report_faults(&run->job->shot, faults);
+    shot_report_faults(&run->r->shot, faults);
 }
 
 // ---- the end
 
 static int stop(struct bands_run *run) {
-    struct render_job *job = run->job;
+    struct rendering *r = run->r;
     const struct bands *bands = &run->bands;
-    progress_end(&job->progress);
+    progress_end(&r->progress);
     if (!bands->is_judged) {
         fprintf(stderr, "glint: stopped: %s is as it was; the same command with --resume goes on\n",
                 run->path);
@@ -299,7 +300,7 @@ static int stop(struct bands_run *run) {
     }
     if (!spool_settle(&run->bands.spool))
         return cannot_write(run);
-    if (job->cli->options.part.partial && bands->done_count) {
+    if (r->cli->options.part.partial && bands->done_count) {
         const int status = bands_write_partial(run);
         if (status != CLI_OK)
             return status;
@@ -310,27 +311,27 @@ static int stop(struct bands_run *run) {
 }
 
 static void note_statistics(struct bands_run *run, double seconds) {
-    struct stats *s = &run->job->stats;
+    struct stats *s = &run->r->stats;
     s->last = run->all;
     s->frames = 1;
     s->first_frame_seconds = s->least_frame_seconds = s->most_frame_seconds = s->median_frame_seconds =
         seconds;
     s->median_device_seconds = run->all.device_seconds;
-    run->job->shot.settings.height = run->bands.part.region.height;
+    run->r->shot.settings.height = run->bands.part.region.height;
 }
 
-int render_in_bands(struct render_job *job, uint32_t camera) {
-    struct bands_run run = {.job = job, .camera = camera};
+int render_in_bands(struct rendering *r, uint32_t camera) {
+    struct bands_run run = {.r = r, .camera = camera};
     parallel_lock_begin(&run.lock);
-    job->progress.patience = PROGRESS_PATIENCE;
+    r->progress.patience = PROGRESS_PATIENCE;
     int status = open_checkpoint(&run);
     const double start = clock_seconds();
     if (status == CLI_OK)
         status = take_bands(&run);
-    timeline_add(job->timeline, "bands", STR(""), start);
+    timeline_add(r->timeline, "bands", STR(""), start);
     note_statistics(&run, clock_seconds() - start);
     if (status == CLI_OK) {
-        progress_end(&job->progress);
+        progress_end(&r->progress);
         status = bands_write(&run);
     }
     if (status == CLI_OK)

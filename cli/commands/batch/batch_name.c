@@ -1,6 +1,6 @@
 // What the pictures of a batch are called.
 #include "cli/commands/batch/batch_job.h"
-#include "cli/commands/render_job.h"
+#include "cli/commands/rendering.h"
 #include "cli/made.h"
 #include "core/heap.h"
 #include "files/files.h"

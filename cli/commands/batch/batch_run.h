@@ -5,7 +5,7 @@
 
 #include "cli/commands/batch/batch_job.h"
 #include "cli/commands/batch/film.h"
-#include "cli/commands/render_job.h"
+#include "cli/commands/rendering.h"
 #include "cli/progress.h"
 #include "core/parallel.h"
 #include "files/spool.h"
@@ -54,7 +54,7 @@ struct batch_counts {
 struct batch_run {
     struct cli *cli;
     struct batch batch;
-    struct render_job outputs; // what the command line says of them
+    struct rendering outputs; // what the command line says of them
     struct live live;
     struct gpu *gpu;
     struct batch_checkpoint checkpoint;

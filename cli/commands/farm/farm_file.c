@@ -1,6 +1,6 @@
 // The plan as a file of its folder: lines of a word and its value, as the head of a part has them.
 #include "cli/commands/farm/farm.h"
-#include "cli/commands/render_job.h"
+#include "cli/commands/rendering.h"
 #include "cli/made.h"
 #include "files/stream.h"
 #include "render/frames/frame_name.h"

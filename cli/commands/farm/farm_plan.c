@@ -1,7 +1,7 @@
 // The plan that the command line of glint farm asks for.
 #include "cli/commands/batch/batch_job.h"
 #include "cli/commands/farm/farm.h"
-#include "cli/commands/render_job.h"
+#include "cli/commands/rendering.h"
 #include "render/frames/frame_name.h"
 #include "render/parts/part_file.h"
 
@@ -91,9 +91,9 @@ static int judge_output(struct cli *cli, const struct farm_plan *plan) {
         diag_help(&cli->sink, "%%d or %%04d is the frame, and %%%% a percent sign");
         return status;
     }
-    struct render_job job = {.cli = cli};
-    const int status = render_take_outputs(&job);
-    if (status != CLI_OK || !job.outputs[0].is_part)
+    struct rendering r = {.cli = cli};
+    const int status = render_take_outputs(&r);
+    if (status != CLI_OK || !r.outputs[0].is_part)
         return status;
     return cli_usage(cli, output->arg, "name the picture: tasks write parts beside it by themselves");
 }

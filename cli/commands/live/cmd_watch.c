@@ -1,7 +1,7 @@
 // glint render SCENE --watch: a picture now, and one after each change of a file that it is made from.
 #include "cli/commands/commands.h"
 #include "cli/commands/live/coarse.h"
-#include "cli/commands/render_job.h"
+#include "cli/commands/rendering.h"
 #include "cli/device.h"
 #include "cli/made.h"
 #include "cli/progress.h"

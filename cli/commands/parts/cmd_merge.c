@@ -2,7 +2,7 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/parts/merge_rows.h"
 #include "cli/commands/pictures/done.h"
-#include "cli/commands/render_job.h"
+#include "cli/commands/rendering.h"
 #include "cli/made.h"
 #include "cli/progress.h"
 #include "core/ranges.h"
@@ -59,34 +59,34 @@ static int judge(struct cli *cli, const struct part *parts, uint32_t count, uint
     return status;
 }
 
-static int take_output(struct render_job *job) {
-    struct cli *cli = job->cli;
+static int take_output(struct rendering *r) {
+    struct cli *cli = r->cli;
     *(struct cli_output *)ARENA_PUSH(&cli->arena, &cli->options.outputs) =
         (struct cli_output){.path = cli->operands[0], .arg = cli_operand_place(cli, 0)};
-    const int status = render_take_outputs(job);
-    if (status != CLI_OK || !job->outputs[0].is_part)
+    const int status = render_take_outputs(r);
+    if (status != CLI_OK || !r->outputs[0].is_part)
         return status;
     return cli_usage(cli, cli_operand_place(cli, 0),
                      "'%s' is a part: a picture is written first, then its parts", cli->operands[0]);
 }
 
 // The picture of parts that fit, into the job's image.
-static int add_parts(struct render_job *job, const uint32_t *order, uint32_t count) {
+static int add_parts(struct rendering *r, const uint32_t *order, uint32_t count) {
     int status = CLI_OK;
     for (uint32_t i = 0; i < count && status == CLI_OK; i++) {
         struct part part;
-        status = read_part(job->cli, order[i], false, &part);
+        status = read_part(r->cli, order[i], false, &part);
         if (status == CLI_OK)
-            parts_add(&part, &job->image);
+            parts_add(&part, &r->image);
         part_finish(&part);
     }
     return status;
 }
 
 // What a row cannot be made of alone: parts of samples, and formats that are coded as a whole.
-static int merge_at_once(struct render_job *job, const uint32_t *order, uint32_t count) {
-    struct cli *cli = job->cli;
-    const uint32_t width = job->image.width, height = job->image.height;
+static int merge_at_once(struct rendering *r, const uint32_t *order, uint32_t count) {
+    struct cli *cli = r->cli;
+    const uint32_t width = r->image.width, height = r->image.height;
     if ((uint64_t)width * height > RANGE_PIXELS_MOST) {
         const int status =
             cli_usage(cli, cli_operand_place(cli, 0),
@@ -95,22 +95,22 @@ static int merge_at_once(struct render_job *job, const uint32_t *order, uint32_t
         diag_help(&cli->sink, "choose one of these endings, and take parts by --tile or --region");
         return status;
     }
-    if (!image_init(&job->image, width, height)) {
+    if (!image_init(&r->image, width, height)) {
         cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory for the picture");
         return CLI_SCENE;
     }
-    const int status = add_parts(job, order, count);
-    return status == CLI_OK ? render_write_pictures(job, 0) : status;
+    const int status = add_parts(r, order, count);
+    return status == CLI_OK ? render_write_pictures(r, 0) : status;
 }
 
 // --skip-done: what the parts say of how they were made, the picture says too.
-static bool is_done(struct render_job *job) {
-    struct cli *cli = job->cli;
-    const struct cli_output *output = &job->outputs[0];
-    if (!cli->options.batch.skip_done || !job->record || !*job->record)
+static bool is_done(struct rendering *r) {
+    struct cli *cli = r->cli;
+    const struct cli_output *output = &r->outputs[0];
+    if (!cli->options.batch.skip_done || !r->record || !*r->record)
         return false;
     const struct image_texts texts = provenance_of_line(
-        job->record, output->format, render_coding(&cli->options, output->format), &cli->arena);
+        r->record, output->format, render_coding(&cli->options, output->format), &cli->arena);
     const bool done = done_picture(cli, output->path, &texts);
     if (done && !cli->options.quiet)
         fprintf(stderr, "glint: %s is done already\n", output->path);
@@ -118,12 +118,12 @@ static bool is_done(struct render_job *job) {
 }
 
 // Joins the operands.
-static int merge(struct render_job *job) {
-    struct cli *cli = job->cli;
+static int merge(struct rendering *r) {
+    struct cli *cli = r->cli;
     const uint32_t count = (uint32_t)cli->operand_count - 1;
     struct part *parts = ARENA_ARRAY(&cli->arena, struct part, count);
     uint32_t *order = ARENA_ARRAY(&cli->arena, uint32_t, count);
-    int status = take_output(job);
+    int status = take_output(r);
     for (uint32_t i = 0; i < count && status == CLI_OK; i++)
         status = read_part(cli, i, true, &parts[i]);
     if (status == CLI_OK)
@@ -131,29 +131,29 @@ static int merge(struct render_job *job) {
     if (status != CLI_OK)
         return status;
     // Made on several devices it says nothing of how: no command makes it again.
-    job->record = parts->record;
+    r->record = parts->record;
     for (uint32_t i = 1; i < count; i++)
         if (strcmp(parts[i].record, parts->record) != 0)
-            job->record = NULL;
-    if (is_done(job))
+            r->record = NULL;
+    if (is_done(r))
         return CLI_OK;
-    job->image_made.tone = parts->display.tone;
-    job->image_made.transfer = parts->display.transfer;
-    job->session.image = &job->image_made;
-    job->image = (struct image){.width = parts->width, .height = parts->height};
-    status = render_judge_size(job);
+    r->image_made.tone = parts->display.tone;
+    r->image_made.transfer = parts->display.transfer;
+    r->session.image = &r->image_made;
+    r->image = (struct image){.width = parts->width, .height = parts->height};
+    status = render_judge_size(r);
     if (status == CLI_OK)
-        status = merge_is_by_rows(job, parts, count) ? merge_rows(job, parts, order, count)
-                                                     : merge_at_once(job, order, count);
+        status = merge_is_by_rows(r, parts, count) ? merge_rows(r, parts, order, count)
+                                                   : merge_at_once(r, order, count);
     if (status == CLI_OK && !cli->options.quiet)
-        render_tell_written(job, 0);
+        render_tell_written(r, 0);
     return status;
 }
 
 static int merge_once(struct cli *cli) {
-    struct render_job job = {.cli = cli};
-    const int status = merge(&job);
-    image_finish(&job.image);
+    struct rendering r = {.cli = cli};
+    const int status = merge(&r);
+    image_finish(&r.image);
     return status;
 }
 

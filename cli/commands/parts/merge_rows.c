@@ -19,8 +19,8 @@ struct merging {
     float *row; // of the widest part
 };
 
-bool merge_is_by_rows(const struct render_job *job, const struct part *parts, uint32_t count) {
-    bool all = image_rows_can(job->outputs[0].format);
+bool merge_is_by_rows(const struct rendering *r, const struct part *parts, uint32_t count) {
+    bool all = image_rows_can(r->outputs[0].format);
     for (uint32_t i = 0; i < count && all; i++)
         all = parts[i].end_sample - parts[i].first_sample == parts[i].samples;
     return all;
@@ -81,29 +81,29 @@ static bool take(void *context, uint32_t y, uint32_t count, float *rgb) {
     return good;
 }
 
-static int write_picture(struct render_job *job, struct merging *m) {
-    const struct cli_output *output = &job->outputs[0];
-    const struct image_display display = {job->session.image->tone, job->session.image->transfer};
-    const struct image_coding coding = render_coding(&job->cli->options, output->format);
+static int write_picture(struct rendering *r, struct merging *m) {
+    const struct cli_output *output = &r->outputs[0];
+    const struct image_display display = {r->session.image->tone, r->session.image->transfer};
+    const struct image_coding coding = render_coding(&r->cli->options, output->format);
     const struct image_rows rows = {
-        .width = job->image.width,
-        .height = job->image.height,
+        .width = r->image.width,
+        .height = r->image.height,
         .take = take,
         .context = m,
-        .texts = job->record ? provenance_of_line(job->record, output->format, coding, &job->cli->arena)
-                             : (struct image_texts){0},
+        .texts = r->record ? provenance_of_line(r->record, output->format, coding, &r->cli->arena)
+                           : (struct image_texts){0},
         .coding = coding};
     bool ended;
-    const int status = row_file_write(job->cli, output->path, &rows, output->format, display, NULL, &ended);
+    const int status = row_file_write(r->cli, output->path, &rows, output->format, display, NULL, &ended);
     return ended ? unreadable(m, m->open == NONE ? 0 : m->open, "can no longer be read") : status;
 }
 
-int merge_rows(struct render_job *job, const struct part *parts, const uint32_t *order, uint32_t count) {
-    struct merging m = {.cli = job->cli, .parts = parts, .order = order, .count = count, .open = NONE};
+int merge_rows(struct rendering *r, const struct part *parts, const uint32_t *order, uint32_t count) {
+    struct merging m = {.cli = r->cli, .parts = parts, .order = order, .count = count, .open = NONE};
     int status = check(&m);
     m.row = heap_array(parts->width, 3 * sizeof *m.row);
     if (status == CLI_OK)
-        status = m.row ? write_picture(job, &m) : unreadable(&m, 0, NULL);
+        status = m.row ? write_picture(r, &m) : unreadable(&m, 0, NULL);
     if (m.open != NONE)
         spool_close(&m.file);
     free(m.row);

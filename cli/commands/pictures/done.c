@@ -1,6 +1,6 @@
 #include "cli/commands/pictures/done.h"
 
-#include "cli/commands/render_job.h"
+#include "cli/commands/rendering.h"
 #include "cli/device.h"
 #include "files/stream.h"
 #include "picture/metrics/picture_file.h"
@@ -28,10 +28,10 @@ static const char *why_not(const struct cli_output *output, bool is_part) {
     return NULL;
 }
 
-int render_judge_done(const struct render_job *job) {
-    struct cli *cli = job->cli;
-    const struct cli_output *outputs = job->outputs;
-    const bool is_part = render_wants_part(job);
+int render_judge_done(const struct rendering *r) {
+    struct cli *cli = r->cli;
+    const struct cli_output *outputs = r->outputs;
+    const bool is_part = render_wants_part(r);
     static const char *const options[] = {"audit",     "max-off",  "aov",    "time",    "repeat",
                                           "max-error", "max-time", "budget", "montage", "watch"};
     if (!cli->options.batch.skip_done)
@@ -41,7 +41,7 @@ int render_judge_done(const struct render_job *job) {
             return cli_usage(cli, cli_option_place(cli, options[i]),
                              "'--%s' needs a picture that is rendered now: it does not go with '--skip-done'",
                              options[i]);
-    for (uint32_t i = 0; i < job->output_count; i++) {
+    for (uint32_t i = 0; i < r->output_count; i++) {
         const char *why = why_not(&outputs[i], is_part);
         if (why)
             return cli_usage(cli, outputs[i].arg ? outputs[i].arg : cli_option_place(cli, "skip-done"),
@@ -129,22 +129,21 @@ bool done_is_there(struct cli *cli, const struct cli_output *output, const char 
 // ---- one render
 
 // What a job is to write, camera by camera.
-static bool is_done(struct render_job *job, uint32_t camera) {
-    const struct done_wish wish = {&job->session, cli_device_is_reference(job->cli) ? NULL : job->gpu, camera,
-                                   &job->part};
+static bool is_done(struct rendering *r, uint32_t camera) {
+    const struct done_wish wish = {&r->session, cli_device_is_reference(r->cli) ? NULL : r->gpu, camera,
+                                   &r->part};
     bool done = true;
-    for (uint32_t i = 0; i < job->output_count && done; i++)
-        done =
-            done_is_there(job->cli, &job->outputs[i], render_output_of(job, &job->outputs[i], camera), &wish);
-    for (uint32_t i = 0; i < job->output_count && done && !job->cli->options.quiet; i++)
-        fprintf(stderr, "glint: %s is done already\n", render_output_of(job, &job->outputs[i], camera));
+    for (uint32_t i = 0; i < r->output_count && done; i++)
+        done = done_is_there(r->cli, &r->outputs[i], render_output_of(r, &r->outputs[i], camera), &wish);
+    for (uint32_t i = 0; i < r->output_count && done && !r->cli->options.quiet; i++)
+        fprintf(stderr, "glint: %s is done already\n", render_output_of(r, &r->outputs[i], camera));
     return done;
 }
 
-void render_find_done(struct render_job *job, uint32_t *first, uint32_t end) {
-    job->done = ARENA_ARRAY(&job->cli->arena, bool, (size_t)end + 1);
+void render_find_done(struct rendering *r, uint32_t *first, uint32_t end) {
+    r->done = ARENA_ARRAY(&r->cli->arena, bool, (size_t)end + 1);
     for (uint32_t i = *first; i < end; i++)
-        job->done[i] = is_done(job, i);
-    while (*first < end && job->done[*first])
+        r->done[i] = is_done(r, i);
+    while (*first < end && r->done[*first])
         ++*first;
 }

@@ -1,5 +1,5 @@
 // What else is known of a picture's pixels: --aov, by the tracer that made the picture.
-#include "cli/commands/render_job.h"
+#include "cli/commands/rendering.h"
 #include "cli/device.h"
 #include "cli/made.h"
 #include "grammar/ir.h"
@@ -15,19 +15,19 @@ enum {
 
 // ---- the command line
 
-static const struct cli_output *exr_output(const struct render_job *job) {
-    for (uint32_t i = 0; i < job->output_count; i++)
-        if (job->outputs[i].format == IMAGE_EXR)
-            return &job->outputs[i];
+static const struct cli_output *exr_output(const struct rendering *r) {
+    for (uint32_t i = 0; i < r->output_count; i++)
+        if (r->outputs[i].format == IMAGE_EXR)
+            return &r->outputs[i];
     return NULL;
 }
 
-static bool wants(const struct render_job *job, enum aov aov) {
-    return job->cli->options.aovs >> aov & 1;
+static bool wants(const struct rendering *r, enum aov aov) {
+    return r->cli->options.aovs >> aov & 1;
 }
 
-static int judge_error(const struct render_job *job) {
-    struct cli *cli = job->cli;
+static int judge_error(const struct rendering *r) {
+    struct cli *cli = r->cli;
     const int status = cli_usage(cli, cli_option_place(cli, "aov"),
                                  "--aov knows 'error' only where pixels end by their error");
     if (cli_device_is_reference(cli))
@@ -38,134 +38,133 @@ static int judge_error(const struct render_job *job) {
     return status;
 }
 
-int render_judge_aovs(struct render_job *job) {
-    const struct scene *scene = &job->session.resolved;
+int render_judge_aovs(struct rendering *r) {
+    const struct scene *scene = &r->session.resolved;
     uint32_t most = scene->material_count > scene->body_count ? scene->material_count : scene->body_count;
-    if (wants(job, AOV_ERROR) && !(job->session.image->error > 0))
-        return judge_error(job);
-    if (exr_output(job))
+    if (wants(r, AOV_ERROR) && !(r->session.image->error > 0))
+        return judge_error(r);
+    if (exr_output(r))
         return CLI_OK;
-    for (uint32_t i = 0; i < scene->body_count && wants(job, AOV_INDEX); i++)
+    for (uint32_t i = 0; i < scene->body_count && wants(r, AOV_INDEX); i++)
         most = scene->bodies[i].triangle_count > most ? scene->bodies[i].triangle_count : most;
-    if (most < FLOAT_WHOLE_MOST || !aov_needs_hits(job->cli->options.aovs))
+    if (most < FLOAT_WHOLE_MOST || !aov_needs_hits(r->cli->options.aovs))
         return CLI_OK;
-    const int status = cli_usage(job->cli, cli_option_place(job->cli, "aov"),
+    const int status = cli_usage(r->cli, cli_option_place(r->cli, "aov"),
                                  "--aov: a PFM file holds no number as large as %u exactly", most);
-    diag_help(&job->cli->sink, "write an OpenEXR picture, which does: -o picture.exr");
+    diag_help(&r->cli->sink, "write an OpenEXR picture, which does: -o picture.exr");
     return status;
 }
 
 // ---- making them
 
-static int no_memory(struct render_job *job) {
-    cli_error(job->cli, DIAG_OUT_OF_MEMORY, job->outputs[0].path, NULL, "not enough memory for --aov");
+static int no_memory(struct rendering *r) {
+    cli_error(r->cli, DIAG_OUT_OF_MEMORY, r->outputs[0].path, NULL, "not enough memory for --aov");
     return CLI_SCENE;
 }
 
-int render_make_aovs(struct render_job *job, struct reference_shot *reference) {
-    struct layers_wish wish = {.shot = reference ? NULL : &job->shot,
+int render_make_aovs(struct rendering *r, struct reference_shot *reference) {
+    struct layers_wish wish = {.shot = reference ? NULL : &r->shot,
                                .reference = reference,
-                               .estimate = reference ? NULL : render_estimate_of(job),
-                               .width = job->image.width,
-                               .height = job->image.height,
-                               .wanted = job->cli->options.aovs,
-                               .in_picture = exr_output(job)};
-    const struct render_progress progress = progress_callback(&job->progress);
+                               .estimate = reference ? NULL : render_estimate_of(r),
+                               .width = r->image.width,
+                               .height = r->image.height,
+                               .wanted = r->cli->options.aovs,
+                               .in_picture = exr_output(r)};
+    const struct render_progress progress = progress_callback(&r->progress);
     if (!wish.wanted)
         return CLI_OK;
-    job->layers = ARENA_NEW(&job->cli->arena, struct layers);
-    const enum shot_status status =
-        layers_make(job->layers, &job->session, &wish, &progress, &job->cli->arena);
+    r->layers = ARENA_NEW(&r->cli->arena, struct layers);
+    const enum shot_status status = layers_make(r->layers, &r->session, &wish, &progress, &r->cli->arena);
     if (status == SHOT_NO_MEMORY)
-        return no_memory(job);
+        return no_memory(r);
     if (wish.in_picture)
-        job->image.layers = &job->layers->layers;
-    return status == SHOT_OK ? CLI_OK : render_failed(job, status);
+        r->image.layers = &r->layers->layers;
+    return status == SHOT_OK ? CLI_OK : render_failed(r, status);
 }
 
-void render_drop_aovs(struct render_job *job) {
-    job->image.layers = NULL;
-    if (job->layers)
-        layers_finish(job->layers);
-    job->layers = NULL;
+void render_drop_aovs(struct rendering *r) {
+    r->image.layers = NULL;
+    if (r->layers)
+        layers_finish(r->layers);
+    r->layers = NULL;
 }
 
 // ---- files of their own
 
-static int write_made(struct render_job *job, const char *path, struct strbuf *made) {
-    const int status = cli_write_made(job->cli, path, made, path);
-    if (status == CLI_OK && !job->cli->options.quiet)
+static int write_made(struct rendering *r, const char *path, struct strbuf *made) {
+    const int status = cli_write_made(r->cli, path, made, path);
+    if (status == CLI_OK && !r->cli->options.quiet)
         fprintf(stderr, "glint: wrote %s\n", path);
     return status;
 }
 
-static const char *plane_name(struct render_job *job, str stem, enum aov aov) {
-    return arena_format(&job->cli->arena, "%.*s.%s.pfm", STR_ARG(stem), aov_info(aov)->name).ptr;
+static const char *plane_name(struct rendering *r, str stem, enum aov aov) {
+    return arena_format(&r->cli->arena, "%.*s.%s.pfm", STR_ARG(stem), aov_info(aov)->name).ptr;
 }
 
-static const char *list_name(struct render_job *job, str stem) {
-    return arena_format(&job->cli->arena, "%.*s.names.json", STR_ARG(stem)).ptr;
+static const char *list_name(struct rendering *r, str stem) {
+    return arena_format(&r->cli->arena, "%.*s.names.json", STR_ARG(stem)).ptr;
 }
 
-static int write_plane(struct render_job *job, str stem, enum aov aov) {
-    const char *path = plane_name(job, stem, aov);
+static int write_plane(struct rendering *r, str stem, enum aov aov) {
+    const char *path = plane_name(r, stem, aov);
     struct image image;
     struct strbuf file;
-    if (!layers_plane(job->layers, aov, &image))
-        return no_memory(job);
+    if (!layers_plane(r->layers, aov, &image))
+        return no_memory(r);
     strbuf_init(&file);
     image_encode(&image, IMAGE_PFM, (struct image_display){0}, &file);
-    const int status = write_made(job, path, &file);
+    const int status = write_made(r, path, &file);
     strbuf_finish(&file);
     image_finish(&image);
     return status;
 }
 
-static int write_names(struct render_job *job, str stem) {
-    const char *path = list_name(job, stem);
+static int write_names(struct rendering *r, str stem) {
+    const char *path = list_name(r, stem);
     struct strbuf file;
     strbuf_init(&file);
-    aov_names_json(&job->layers->names, &job->session.sources, &file);
-    const int status = write_made(job, path, &file);
+    aov_names_json(&r->layers->names, &r->session.sources, &file);
+    const int status = write_made(r, path, &file);
     strbuf_finish(&file);
     return status;
 }
 
 // The output that the files lie beside.
-static const struct cli_output *output_beside(const struct render_job *job) {
-    const struct cli_output *beside = exr_output(job);
-    beside = beside ? beside : job->outputs;
-    while (beside + 1 < job->outputs + job->output_count && strcmp(beside->path, "-") == 0)
+static const struct cli_output *output_beside(const struct rendering *r) {
+    const struct cli_output *beside = exr_output(r);
+    beside = beside ? beside : r->outputs;
+    while (beside + 1 < r->outputs + r->output_count && strcmp(beside->path, "-") == 0)
         beside++;
     return beside;
 }
 
-int render_judge_aov_names(struct render_job *job, uint32_t camera) {
+int render_judge_aov_names(struct rendering *r, uint32_t camera) {
     int status = CLI_OK;
-    if (!job->cli->options.aovs)
+    if (!r->cli->options.aovs)
         return CLI_OK;
-    const struct cli_output *beside = output_beside(job);
+    const struct cli_output *beside = output_beside(r);
     const char *typed = render_typed(beside);
-    const str stem = render_stem_of(str_from(render_output_of(job, beside, camera)));
-    for (int i = 0; i < AOVS && status == CLI_OK && !exr_output(job); i++)
-        if (wants(job, (enum aov)i))
-            status = cli_judge_made(job->cli, typed, plane_name(job, stem, (enum aov)i));
-    if (status == CLI_OK && (wants(job, AOV_OBJECT) || wants(job, AOV_MATERIAL)))
-        status = cli_judge_made(job->cli, typed, list_name(job, stem));
+    const str stem = render_stem_of(str_from(render_output_of(r, beside, camera)));
+    for (int i = 0; i < AOVS && status == CLI_OK && !exr_output(r); i++)
+        if (wants(r, (enum aov)i))
+            status = cli_judge_made(r->cli, typed, plane_name(r, stem, (enum aov)i));
+    if (status == CLI_OK && (wants(r, AOV_OBJECT) || wants(r, AOV_MATERIAL)))
+        status = cli_judge_made(r->cli, typed, list_name(r, stem));
     return status;
 }
 
-int render_write_aovs(struct render_job *job, uint32_t camera) {
-    const bool apart = !exr_output(job);
+int render_write_aovs(struct rendering *r, uint32_t camera) {
+    const bool apart = !exr_output(r);
     int status = CLI_OK;
-    if (!job->layers)
+    if (!r->layers)
         return CLI_OK;
-    const struct cli_output *beside = output_beside(job);
-    const str stem = render_stem_of(str_from(render_output_of(job, beside, camera)));
+    const struct cli_output *beside = output_beside(r);
+    const str stem = render_stem_of(str_from(render_output_of(r, beside, camera)));
     for (int i = 0; i < AOVS && status == CLI_OK && apart; i++)
-        if (wants(job, (enum aov)i))
-            status = write_plane(job, stem, (enum aov)i);
-    if (status == CLI_OK && (wants(job, AOV_OBJECT) || wants(job, AOV_MATERIAL)))
-        status = write_names(job, stem);
+        if (wants(r, (enum aov)i))
+            status = write_plane(r, stem, (enum aov)i);
+    if (status == CLI_OK && (wants(r, AOV_OBJECT) || wants(r, AOV_MATERIAL)))
+        status = write_names(r, stem);
     return status;
 }

@@ -2,7 +2,7 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/verify/verify.h"
 
-#include "cli/commands/render_job.h"
+#include "cli/commands/rendering.h"
 #include "cli/device.h"
 #include "core/heap.h"
 #include "core/number.h"
@@ -233,17 +233,17 @@ static int compare(struct verify *v, struct image_display display) {
 
 static int render(struct verify *v, struct image_display *display) {
     struct cli *cli = v->cli;
-    struct render_job job = {.cli = cli, .kept = &v->made};
+    struct rendering r = {.cli = cli, .kept = &v->made};
     struct cli_output *output = ARENA_NEW(&cli->arena, struct cli_output);
     output->path = "-";
     for (int format = 0; format < IMAGE_FORMATS; format++)
         if (strcmp(image_format_info((enum image_format)format)->name, v->pictures[0].kind) == 0)
             output->format = (enum image_format)format;
-    job.outputs = output;
-    job.output_count = 1;
+    r.outputs = output;
+    r.output_count = 1;
     cli->operands[0] = (char *)v->scene;
-    const int status = render_whole(&job);
-    *display = job.display;
+    const int status = render_whole(&r);
+    *display = r.display;
     // One with faulty pixels is a picture, and its errors were reported.
     return v->made.len ? CLI_OK : status;
 }
