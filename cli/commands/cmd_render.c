@@ -5,39 +5,36 @@
 #include "cli/device.h"
 #include "cli/made.h"
 #include "core/clock.h"
-#include "core/quantile.h"
 #include "core/timeline.h"
 #include "files/output.h"
 #include "grammar/ir.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/resource.h>
 
 // ---- what goes on while the background's pixels are decoded
 
 static void begin_device(void *context) {
     struct rendering *r = context;
-    r->opening = cli_begin_opening(r->cli, r->timeline);
+    r->opening = cli_begin_opening(r->cli, r->job.wish.timeline);
 }
 
 static void part_sinks(struct rendering *r) {
-    r->loaded = r->session.sink;
+    r->loaded = r->job.session->sink;
     r->is_apart = true;
-    diag_sink_init(&r->session.sink);
-    diag_sink_keep(&r->session.sink, r->loaded.kept_max);
+    diag_sink_init(&r->job.session->sink);
+    diag_sink_keep(&r->job.session->sink, r->loaded.kept_max);
 }
 
 static int judge_load(struct rendering *r) {
     const double start = clock_seconds();
-    const bool waits = r->session.unsettled;
-    session_settle(&r->session);
+    const bool waits = r->job.session->unsettled;
+    session_settle(r->job.session);
     if (waits)
-        timeline_add(r->timeline, "wait", STR(""), start);
-    if (r->session.state != SESSION_LOADED || r->session.sink.errors)
-        return cli_report(r->cli, &r->session, !r->cli->options.quiet);
+        timeline_add(r->job.wish.timeline, "wait", STR(""), start);
+    if (r->job.session->state != SESSION_LOADED || r->job.session->sink.errors)
+        return cli_report(r->cli, r->job.session, !r->cli->options.quiet);
     if (interrupt_signal())
         return render_interrupted(r);
     int status = CLI_OK;
@@ -54,12 +51,12 @@ static int judge_load(struct rendering *r) {
 static int settle(struct rendering *r) {
     if (!r->is_apart)
         return r->settled;
-    struct diag_sink meanwhile = r->session.sink;
-    r->session.sink = r->loaded;
+    struct diag_sink meanwhile = r->job.session->sink;
+    r->job.session->sink = r->loaded;
     r->is_apart = false;
     r->settled = judge_load(r);
     if (r->settled == CLI_OK)
-        diag_merge(&r->session.sink, &meanwhile);
+        diag_merge(&r->job.session->sink, &meanwhile);
     diag_sink_finish(&meanwhile);
     return r->settled;
 }
@@ -68,82 +65,39 @@ static bool is_ready(void *context) {
     return settle(context) == CLI_OK;
 }
 
-// ---- frames
+// ---- one picture
 
-static int take_frames(struct rendering *r, uint32_t cameras) {
-    int32_t frames = r->cli->options.repeat ? r->cli->options.repeat : 1;
-    double *times = ARENA_ARRAY(&r->cli->arena, double, (size_t)frames);
-    double *on_device = ARENA_ARRAY(&r->cli->arena, double, (size_t)frames);
-    struct render_progress callback = progress_callback(&r->progress);
-    for (int32_t i = 0; i < frames; i++) {
-        r->progress.base = (double)i / frames;
-        r->progress.share = 1.0 / frames;
-        double start = clock_seconds();
-        uint32_t errors = r->session.sink.errors;
-        enum shot_status status = render_take_frame(r, cameras, &callback);
-        times[i] = clock_seconds() - start;
-        on_device[i] = r->stats.last.device_seconds;
-        timeline_add(r->timeline, "frame", STR(""), start);
-        if (status != SHOT_OK)
-            return render_failed(r, status);
-        if (i == 0)
-            r->stats.first_frame_seconds = times[i];
-        if (r->session.sink.errors > errors)
-            frames = i + 1; // a faulty picture: more frames would show the same
-    }
-    quantile_sort(times, (size_t)frames);
-    quantile_sort(on_device, (size_t)frames);
-    r->stats.frames = frames;
-    r->stats.least_frame_seconds = times[0];
-    r->stats.most_frame_seconds = times[frames - 1];
-    r->stats.median_frame_seconds = quantile(times, (size_t)frames, 0.5);
-    r->stats.median_device_seconds = quantile(on_device, (size_t)frames, 0.5);
-    return CLI_OK;
+// The scene's findings are reported after all pictures.
+static int drawing_failed(struct rendering *r, enum shot_status status) {
+    return status == SHOT_SCENE ? CLI_SCENE : render_failed(r, status);
 }
 
-static int report_stats(struct rendering *r) {
-    struct stats *s = &r->stats;
-    struct rusage usage;
-    getrusage(RUSAGE_SELF, &usage);
-    s->peak_memory_bytes = usage.ru_maxrss * 1024;
-    s->timeline = r->timeline;
-    s->has_rays = r->cli->options.count_rays;
-    s->begun = r->cli->begun;
-    s->read_seconds = r->session.read_seconds;
-    s->assets_seconds = r->session.assets_seconds;
-    s->flatten_seconds = r->shot.flatten_seconds;
-    s->build_seconds = r->shot.flat.build_seconds;
-    s->upload_seconds = r->shot.upload_seconds;
-    s->scene_bytes = renderer_scene_bytes(r->shot.renderer);
-    s->band_bytes = renderer_band_bytes(r->shot.renderer);
-    s->triangles = r->shot.flat.triangle_count;
-    s->dropped = r->shot.flat.dropped_triangles;
-    s->spheres = r->shot.flat.sphere_count;
-    s->triangle_depth = r->shot.flat.triangle_depth;
-    s->features = r->shot.settings.features;
-    s->is_double = r->shot.flat.is_double;
-    s->camera = r->shot.view.camera.name;
-    s->width = r->shot.settings.width;
-    s->height = r->shot.settings.height;
-    s->samples = s->last.samples;
-    snprintf(s->device, sizeof s->device, "%s", gpu_info(r->gpu)->name);
-    struct strbuf text;
-    strbuf_init(&text);
-    (r->cli->options.stats == CLI_STATS_JSON ? stats_json : stats_text)(s, &text);
-    const int status = render_tell_stats(r, strbuf_view(&text));
-    strbuf_finish(&text);
-    return status;
+static void tell_estimate(struct rendering *r) {
+    job_state_estimate(&r->job);
+    if (r->job.wish.by_reference)
+        return;
+    render_tell_unused_error(r);
+    if (r->job.note.len && !r->cli->options.quiet)
+        fprintf(stderr, "glint: %s\n", r->job.note.data);
+}
+
+static int draw(struct rendering *r, uint32_t pictures) {
+    const struct render_progress progress = progress_callback(&r->progress);
+    enum shot_status status = job_draw(&r->job, pictures, &progress);
+    if (status != SHOT_OK)
+        return drawing_failed(r, status);
+    tell_estimate(r);
+    status = job_audit(&r->job, &progress);
+    if (status == SHOT_OK)
+        status = job_make_layers(&r->job, &progress);
+    if (status == SHOT_NO_MEMORY)
+        return render_no_memory_for_aovs(r);
+    return status == SHOT_OK ? CLI_OK : drawing_failed(r, status);
 }
 
 // All that is known of a picture is in memory at once.
-static int render_at_once(struct rendering *r, uint32_t camera, uint32_t cameras) {
-    int status = take_frames(r, cameras);
-    if (status == CLI_OK)
-        status = render_note_estimate(r);
-    if (status == CLI_OK)
-        status = render_audit(r);
-    if (status == CLI_OK)
-        status = render_make_aovs(r, NULL);
+static int render_at_once(struct rendering *r, uint32_t camera, uint32_t pictures) {
+    int status = draw(r, pictures);
     progress_end(&r->progress);
     if (status == CLI_OK)
         status = render_scale_up(r);
@@ -151,76 +105,68 @@ static int render_at_once(struct rendering *r, uint32_t camera, uint32_t cameras
         status = render_write_pictures(r, camera);
     if (status == CLI_OK)
         status = render_write_aovs(r, camera);
-    render_drop_aovs(r);
+    job_drop_layers(&r->job);
     return status;
 }
 
-// After the picture was written: it is not waited for. Bands and parts count while they are made.
-static int count_rays(struct rendering *r) {
-    const double start = clock_seconds();
-    if (!r->cli->options.count_rays || r->shot.wish.counts)
-        return CLI_OK;
-    const enum shot_status status = shot_count(&r->shot, NULL, &r->stats.last);
-    r->stats.count_seconds = clock_seconds() - start;
-    timeline_add(r->timeline, "count", STR(""), start);
-    return status == SHOT_OK ? CLI_OK : render_failed(r, status);
+static int report_stats(struct rendering *r) {
+    const bool is_json = r->cli->options.stats == CLI_STATS_JSON;
+    struct strbuf text;
+    int status = CLI_OK;
+    strbuf_init(&text);
+    job_report(&r->job, is_json, &text);
+    if (is_json && !render_uses_stdout(r))
+        status = cli_print(r->cli, strbuf_view(&text));
+    else
+        cli_write_error(strbuf_view(&text));
+    strbuf_finish(&text);
+    return status;
 }
 
-// One camera of those that are left: frames, picture, statistics. The shot is open and uses it.
+// One camera of those that are left: picture, files, statistics. The job is open and uses it.
 static int render_camera(struct rendering *r, uint32_t camera, uint32_t cameras) {
     progress_begin(&r->progress, r->cli->options.quiet);
-    int status = r->in_bands ? render_in_bands(r, camera) : render_at_once(r, camera, cameras);
-    if (status == CLI_OK)
-        status = count_rays(r);
+    int status = r->job.in_bands ? render_in_bands(r, camera) : render_at_once(r, camera, cameras);
+    // After the picture was written: it is not waited for.
+    const enum shot_status counted = status == CLI_OK ? job_count(&r->job) : SHOT_OK;
+    if (counted != SHOT_OK)
+        status = render_failed(r, counted);
     if (status == CLI_OK && r->cli->options.stats)
         status = report_stats(r);
     if (status == CLI_OK)
-        status = render_tell_audit(r);
-    if (status == CLI_OK)
-        status = render_tell_time(r);
-    if (status != CLI_OK || r->cli->options.quiet)
-        return status;
-    if (r->cli->options.repeat)
-        fprintf(
-            stderr, "glint: median frame %.2f ms of %d, from %.2f to %.2f ms, %.3f ms by the clock of %s\n",
-            1e3 * r->stats.median_frame_seconds, r->stats.frames, 1e3 * r->stats.least_frame_seconds,
-            1e3 * r->stats.most_frame_seconds, 1e3 * r->stats.median_device_seconds, gpu_info(r->gpu)->name);
-    render_tell_written(r, camera);
+        status = render_tell_end(r);
+    if (status == CLI_OK && !r->cli->options.quiet)
+        render_tell_written(r, camera);
     return status;
 }
 
 // A device that fails is reported after what the scene has wrong.
 static int open_device(struct rendering *r) {
     struct cli_opening *opening = r->opening;
-    if (r->gpu)
+    if (r->job.gpu)
         return CLI_OK;
     if (!cli_opening_is_good(opening) && settle(r) != CLI_OK)
         return r->settled;
-    return cli_end_opening(r->cli, &r->opening, &r->gpu, &r->stats.device_seconds);
+    return cli_end_opening(r->cli, &r->opening, &r->job.gpu, &r->job.stats.device_seconds);
 }
 
-static int render_by_device(struct rendering *r, uint32_t first, uint32_t end) {
-    int status = open_device(r);
+static int draw_cameras(struct rendering *r, uint32_t first, uint32_t end) {
+    int status = r->job.wish.by_reference ? CLI_OK : open_device(r);
     if (status != CLI_OK)
         return status;
-    const struct shot_wish wish = {.region = render_first_region(r),
-                                   .counts = r->cli->options.count_rays && (r->in_bands || r->is_part),
-                                   .audits = render_wants_audit(&r->cli->options),
-                                   .ready = r->is_apart ? is_ready : NULL,
-                                   .ready_context = r};
-    enum shot_status opened = shot_open_for(&r->shot, &r->session, r->gpu, first, wish);
+    r->job.wish.ready = r->is_apart ? is_ready : NULL;
+    r->job.wish.ready_context = r;
+    enum shot_status opened = job_open(&r->job, first);
     if (opened != SHOT_OK)
         return settle(r) != CLI_OK ? r->settled : render_failed(r, opened);
     for (uint32_t i = first; i < end && status == CLI_OK; i++) {
         if (r->done && r->done[i])
             continue;
-        if (i != first && (opened = shot_turn(&r->shot, i)) != SHOT_OK)
+        if (i != first && (opened = job_turn(&r->job, i)) != SHOT_OK)
             return render_failed(r, opened);
-        if (!r->in_bands && !render_aim_at_part(r))
-            return render_failed(r, SHOT_DEVICE);
         status = render_camera(r, i, end - i);
     }
-    int reported = cli_report(r->cli, &r->session, !r->cli->options.quiet);
+    int reported = cli_report(r->cli, r->job.session, !r->cli->options.quiet);
     return status != CLI_OK ? status : reported;
 }
 
@@ -229,12 +175,12 @@ static int leave_done(struct rendering *r, uint32_t *first, uint32_t end) {
     int status = r->cli->options.batch.skip_done ? settle(r) : CLI_OK;
     if (status != CLI_OK || !r->cli->options.batch.skip_done)
         return status;
-    if (!cli_device_is_reference(r->cli))
+    if (!r->job.wish.by_reference)
         status = open_device(r);
     if (status != CLI_OK)
         return status;
     render_find_done(r, first, end);
-    return *first == end ? cli_report(r->cli, &r->session, !r->cli->options.quiet) : CLI_OK;
+    return *first == end ? cli_report(r->cli, r->job.session, !r->cli->options.quiet) : CLI_OK;
 }
 
 // All names that are made of the outputs', through these cameras.
@@ -253,19 +199,19 @@ static int judge_made(struct rendering *r, uint32_t first, uint32_t end) {
 }
 
 static int render_cameras(struct rendering *r) {
-    const struct ir_cameras *cameras = &r->session.scene->cameras;
-    const bool by_reference = cli_device_is_reference(r->cli);
+    const struct ir_cameras *cameras = &r->job.session->scene->cameras;
     bool all = str_equal(r->cli->options.camera, STR("all"));
     r->all_cameras = all && cameras->count > 0;
-    uint32_t first = all ? 0 : session_camera(&r->session, r->cli->options.camera);
+    uint32_t first = all ? 0 : session_camera(r->job.session, r->cli->options.camera);
     if (first != IR_NO_INDEX && (render_plan_part(r) != CLI_OK || render_plan_bands(r) != CLI_OK))
         return CLI_USAGE;
-    const bool good = first != IR_NO_INDEX &&
-                      (r->in_bands || image_init(&r->image, r->part.region.width, r->part.region.height));
-    if ((!good || by_reference) && settle(r) != CLI_OK)
+    const bool good =
+        first != IR_NO_INDEX &&
+        (r->job.in_bands || image_init(&r->job.image, r->job.part.region.width, r->job.part.region.height));
+    if ((!good || r->job.wish.by_reference) && settle(r) != CLI_OK)
         return r->settled;
     if (first == IR_NO_INDEX)
-        return cli_report(r->cli, &r->session, !r->cli->options.quiet);
+        return cli_report(r->cli, r->job.session, !r->cli->options.quiet);
     if (!good) {
         cli_error(r->cli, DIAG_OUT_OF_MEMORY, r->outputs[0].path, NULL, "not enough memory for the picture");
         return CLI_SCENE;
@@ -281,27 +227,27 @@ static int render_cameras(struct rendering *r) {
         fits = leave_done(r, &first, end);
     if (fits != CLI_OK || first == end)
         return fits;
-    return by_reference ? render_by_reference(r, first, end) : render_by_device(r, first, end);
+    return draw_cameras(r, first, end);
 }
 
 static int run_job(struct rendering *r, struct asset_store *store) {
     struct session_options options = cli_session_options(r->cli, r->cli->operands[0]);
-    const bool device = !cli_device_is_reference(r->cli);
+    const bool device = !r->job.wish.by_reference;
     options.lint = LINT_CHEAP;
     options.error = device ? options.error : -1; // the reference takes all samples
     options.whole_picture = !device || r->kept;
     options.pixels_later = device;
-    options.on_text = device && !r->gpu ? begin_device : NULL;
+    options.on_text = device && !r->job.gpu ? begin_device : NULL;
     options.on_text_context = r;
-    options.timeline = r->timeline;
-    session_load(&r->session, &options, store);
-    if (r->session.sink.errors == 0 && r->session.image && options.error > 0 &&
-        !(r->session.image->error > 0)) {
+    options.timeline = r->job.wish.timeline;
+    session_load(r->job.session, &options, store);
+    if (r->job.session->sink.errors == 0 && r->job.session->image && options.error > 0 &&
+        !(r->job.session->image->error > 0)) {
         cli_has_no_effect(r->cli, "noise", "no pixel ends before it has image.min_samples");
         return CLI_USAGE;
     }
     part_sinks(r);
-    const bool goes_on = r->session.unsettled || settle(r) == CLI_OK;
+    const bool goes_on = r->job.session->unsettled || settle(r) == CLI_OK;
     return goes_on ? render_cameras(r) : r->settled;
 }
 
@@ -350,28 +296,57 @@ static double coarsest_levels(const struct rendering *r) {
 static int choose_settings(struct rendering *r, struct asset_store *store) {
     if (!GLINT_DEVICE)
         return cli_left_out(r->cli, "'--max-error' and '--max-time'");
-    return cli_choose_settings(r->cli, coarsest_levels(r), store, &r->gpu);
+    return cli_choose_settings(r->cli, coarsest_levels(r), store, &r->job.gpu);
+}
+
+static size_t encode_all(void *context) {
+    struct rendering *r = context;
+    struct strbuf file;
+    strbuf_init(&file);
+    for (uint32_t i = 0; i < r->output_count; i++)
+        render_encode(r, r->outputs[i].format, &file);
+    const size_t bytes = file.len;
+    strbuf_finish(&file);
+    return bytes;
+}
+
+// What the command line asks of the job.
+static struct job_wish wish_of(struct rendering *r) {
+    const struct cli_options *o = &r->cli->options;
+    const bool by_reference = cli_device_is_reference(r->cli);
+    return (struct job_wish){.by_reference = by_reference,
+                             .as_file = o->as_file,
+                             .no_cache = o->no_cache,
+                             .frames = o->repeat,
+                             .counts = o->count_rays,
+                             .audits = (o->audit || o->has_max_off) && !by_reference,
+                             .max_off = o->has_max_off ? o->max_off : -1,
+                             .aovs = o->aovs,
+                             .in_picture = render_exr_output(r),
+                             .band_rows = o->part.band_rows,
+                             .time = {.begun = r->cli->begun,
+                                      .seconds = o->measure.time_s,
+                                      .files = r->output_count,
+                                      .encode = encode_all,
+                                      .context = r},
+                             .timeline = o->stats ? ARENA_NEW(&r->cli->arena, struct timeline) : NULL};
 }
 
 int render_whole(struct rendering *r) {
     struct cli *cli = r->cli;
+    struct session session = {0};
     interrupt_catch();
-    strbuf_init(&r->note);
-    strbuf_init(&r->audit_note);
     struct asset_store *store = asset_store_create();
-    if (cli->options.stats)
-        r->timeline = ARENA_NEW(&cli->arena, struct timeline);
+    r->job.session = &session;
+    r->job.arena = &cli->arena;
+    r->job.wish = wish_of(r);
     int status = cli_has_study(cli) ? choose_settings(r, store) : CLI_OK;
     if (status == CLI_OK)
         status = run_job(r, store);
-    shot_close(&r->shot);
+    job_close(&r->job);
     cli_drop_opening(cli, r->opening);
-    image_finish(&r->image);
-    part_finish(&r->part);
-    strbuf_finish(&r->note);
-    strbuf_finish(&r->audit_note);
-    cli_close_device(cli, r->gpu);
-    session_finish(&r->session);
+    cli_close_device(cli, r->job.gpu);
+    session_finish(&session);
     asset_store_destroy(store);
     return status;
 }

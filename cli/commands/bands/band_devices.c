@@ -120,7 +120,7 @@ bool bands_keep(struct bands_run *run, uint32_t band, const float *rgb,
 
 static int take_band(struct band_device *d, uint32_t band) {
     struct bands_run *run = d->run;
-    const struct shot *shot = &run->r->shot;
+    const struct shot *shot = run->r->job.shot;
     const struct render_progress progress = progress_callback(&d->progress);
     struct render_statistics made;
     bands_aim(run, band, &d->settings);
@@ -150,7 +150,7 @@ static bool is_equal(const struct gpu_device_info *a, const struct gpu_device_in
 
 static int begin(struct bands_run *run, struct band_devices *devices, const char *number) {
     struct cli *cli = run->r->cli;
-    const struct gpu_device_info *first = gpu_info(run->r->gpu);
+    const struct gpu_device_info *first = gpu_info(run->r->job.gpu);
     struct band_device *d = &devices->items[devices->count];
     const int status = cli_open_named(cli, number, &d->gpu);
     if (status != CLI_OK)
@@ -171,7 +171,7 @@ static int begin(struct bands_run *run, struct band_devices *devices, const char
     progress_begin(&d->progress, true);
     d->progress.patience = PROGRESS_PATIENCE;
     d->run = run;
-    d->settings = run->r->shot.settings;
+    d->settings = run->r->job.shot->settings;
     d->settings.timeline = NULL;
     d->settings.background_later = false;
     parallel_start(&d->task, work, d);
@@ -182,7 +182,7 @@ static int begin(struct bands_run *run, struct band_devices *devices, const char
 static int begin_all(struct bands_run *run, struct band_devices *devices) {
     struct cli *cli = run->r->cli;
     const char *wanted = cli_device_wanted(cli);
-    const struct gpu_device_info *first = gpu_info(run->r->gpu);
+    const struct gpu_device_info *first = gpu_info(run->r->job.gpu);
     int status = CLI_OK;
     for (const char *p = strchr(wanted, ','); p && status == CLI_OK; p = strchr(p + 1, ',')) {
         const size_t length = strcspn(p + 1, ",");

@@ -3,7 +3,6 @@
 #include "cli/commands/pictures/row_files.h"
 #include "cli/made.h"
 #include "core/clock.h"
-#include "render/record/provenance.h"
 
 #include "grammar/ir.h"
 
@@ -29,19 +28,14 @@ static int cannot_read(struct bands_run *run) {
 
 static struct image_texts texts_of(struct bands_run *run, enum image_format format) {
     struct rendering *r = run->r;
-    const struct provenance made = {.session = &r->session,
-                                    .gpu = r->gpu,
-                                    .camera = run->camera,
-                                    .is_double = r->shot.flat.is_double,
-                                    .format = format,
-                                    .coding = render_coding(&r->cli->options, format)};
-    return r->is_part ? (struct image_texts){0} : provenance_texts(&made, &r->cli->arena);
+    const struct provenance made = job_provenance(&r->job, format, render_coding(&r->cli->options, format));
+    return r->job.is_part ? (struct image_texts){0} : provenance_texts(&made, &r->cli->arena);
 }
 
 // `texts`: of the head; NULL: those of the whole picture.
 static int write_file(struct bands_run *run, const struct cli_output *output, const char *path,
                       const struct image_texts *texts) {
-    const struct ir_image *image = run->r->session.image;
+    const struct ir_image *image = run->r->job.session->image;
     struct writing w = {run, !texts};
     const struct image_rows rows = {.width = run->bands.part.region.width,
                                     .height = run->bands.part.region.height,
@@ -73,11 +67,11 @@ static bool are_streamed(const struct rendering *r) {
 static int write_at_once(struct bands_run *run) {
     struct rendering *r = run->r;
     const struct part_region *region = &run->bands.part.region;
-    if (!image_init(&r->image, region->width, region->height)) {
+    if (!image_init(&r->job.image, region->width, region->height)) {
         cli_error(r->cli, DIAG_OUT_OF_MEMORY, r->outputs[0].path, NULL, "not enough memory for the picture");
         return CLI_SCENE;
     }
-    if (!bands_take(&run->bands, 0, region->height, r->image.rgb))
+    if (!bands_take(&run->bands, 0, region->height, r->job.image.rgb))
         return cannot_read(run);
     return render_write_pictures(r, run->camera);
 }
@@ -91,7 +85,7 @@ int bands_write(struct bands_run *run) {
     for (uint32_t i = 0; i < r->output_count && status == CLI_OK; i++)
         status = write_file(run, &r->outputs[i], render_output_of(r, &r->outputs[i], run->camera), NULL);
     r->written = clock_seconds();
-    r->stats.encode_seconds = r->written - start;
+    r->job.stats.encode_seconds = r->written - start;
     return status;
 }
 

@@ -12,11 +12,7 @@
 #include <string.h>
 
 enum {
-    TILE_ROWS = 8,
-    BAND_PIXELS = 4 << 20,   // of a band at most: 48 MiB
-    PATHS_OF_CPU = 2 << 20,  // in a band: about a second of a few processors
-    PATHS_OF_GPU = 32 << 20, // enough to keep it busy
-    WHOLE_PIXELS = 8 << 20,  // more are in bands where nothing needs all at once: whole, each takes 18 bytes
+    WHOLE_PIXELS = 8 << 20, // more are in bands where nothing needs all at once: whole, each takes 18 bytes
 };
 
 // ---- whether
@@ -88,9 +84,9 @@ static const struct cli_output *whole_output(const struct rendering *r) {
 
 // A picture that could be held as a whole, and need not be.
 static bool saves_memory(const struct rendering *r) {
-    const struct part_region *region = &r->part.region;
+    const struct part_region *region = &r->job.part.region;
     return (uint64_t)region->width * region->height > WHOLE_PIXELS && !obstacle(r) && !whole_output(r) &&
-           !(r->session.image->error > 0);
+           !(r->job.session->image->error > 0);
 }
 
 // A picture that is too large to be held needs formats that can be written in rows.
@@ -107,46 +103,24 @@ static int judge_formats(struct rendering *r) {
 }
 
 int render_plan_bands(struct rendering *r) {
-    const struct part_region *region = &r->part.region;
+    const struct part_region *region = &r->job.part.region;
     const bool is_large = (uint64_t)region->width * region->height > RANGE_PIXELS_MOST;
-    r->in_bands = is_large || are_asked_for(r) || saves_memory(r);
-    if (!r->in_bands)
+    r->job.in_bands = is_large || are_asked_for(r) || saves_memory(r);
+    if (!r->job.in_bands)
         return CLI_OK;
     const char *why = obstacle(r);
     if (why)
         return cli_usage(r->cli, place_of(r),
                          "this picture has more than 64 megapixels, and is rendered in bands: %s", why);
-    if (r->session.image->error > 0) {
+    if (r->job.session->image->error > 0) {
         const int status = cli_usage(r->cli, place_of(r),
                                      "pixels that end by their error are not rendered in bands: the picture "
                                      "states an error of all its pixels");
         diag_help(&r->cli->sink, "give all pixels the same samples: --set image.error=0");
         return status;
     }
-    r->image = (struct image){.width = region->width, .height = region->height};
+    r->job.image = (struct image){.width = region->width, .height = region->height};
     return is_large ? judge_formats(r) : CLI_OK;
-}
-
-// ---- how large
-
-static uint32_t rows_of(const struct rendering *r) {
-    const struct part *part = &r->part;
-    const bool is_cpu = gpu_info(r->gpu)->kind == GPU_CPU;
-    const uint64_t paths = is_cpu ? PATHS_OF_CPU : PATHS_OF_GPU;
-    const uint32_t wanted = (uint32_t)r->cli->options.part.band_rows;
-    uint64_t pixels = paths / part->samples;
-    pixels = pixels < BAND_PIXELS ? pixels : BAND_PIXELS;
-    const uint32_t rows = wanted ? wanted + TILE_ROWS - 1 : (uint32_t)(pixels / part->region.width);
-    return rows < TILE_ROWS ? TILE_ROWS : rows / TILE_ROWS * TILE_ROWS;
-}
-
-struct shot_region render_first_region(struct rendering *r) {
-    const struct part_region *region = &r->part.region;
-    if (!r->in_bands && !r->is_part)
-        return (struct shot_region){0};
-    const uint32_t rows = r->in_bands ? rows_of(r) : region->height;
-    return (struct shot_region){region->x, region->y, region->width,
-                                rows < region->height ? rows : region->height};
 }
 
 // ---- the checkpoint
@@ -168,7 +142,7 @@ static int refuse(struct bands_run *run, const char *words) {
 static int begin_anew(struct bands_run *run, struct strbuf *error) {
     struct rendering *r = run->r;
     strbuf_clear(error);
-    run->is_open = bands_create(&run->bands, run->path, &r->part, rows_of(r), error);
+    run->is_open = bands_create(&run->bands, run->path, &r->job.part, job_band_rows(&r->job), error);
     if (run->is_open)
         return CLI_OK;
     cli_error(r->cli, error->len ? DIAG_OUTPUT : DIAG_OUT_OF_MEMORY, run->path, NULL, "%s",
@@ -187,7 +161,7 @@ static int go_on(struct bands_run *run, struct strbuf *error) {
         return refuse(run, error->len ? error->data : "needs more memory than there is");
     if (!r->cli->options.part.resume)
         return refuse(run, "is there: a run before this one has left it");
-    const char *words = bands_difference(&run->bands, &r->part);
+    const char *words = bands_difference(&run->bands, &r->job.part);
     if (words)
         return refuse(run, arena_format(&r->cli->arena, "%s this one", words).ptr);
     if (!run->bands.is_judged)
@@ -201,7 +175,7 @@ static int go_on(struct bands_run *run, struct strbuf *error) {
 static int open_checkpoint(struct bands_run *run) {
     struct strbuf error;
     strbuf_init(&error);
-    render_fill_part(run->r);
+    job_describe_part(&run->r->job, &run->r->job.part);
     run->path = arena_format(&run->r->cli->arena, "%s" BANDS_ENDING,
                              render_output_of(run->r, first_file(run->r), run->camera))
                     .ptr;
@@ -236,7 +210,7 @@ static int cannot_write(struct bands_run *run) {
 
 static int take_band(struct bands_run *run, uint32_t band) {
     struct rendering *r = run->r;
-    struct shot *shot = &r->shot;
+    struct shot *shot = r->job.shot;
     const struct render_progress progress = progress_callback(&r->progress);
     struct render_statistics made;
     bands_aim(run, band, &shot->settings);
@@ -284,7 +258,7 @@ static void report_faults(struct bands_run *run) {
     struct render_fault faults[RENDER_FAULT_KINDS] = {0};
     for (uint32_t i = 0; i < run->bands.count; i++)
         add_faults(&run->bands.faults[i], faults);
-    shot_report_faults(&run->r->shot, faults);
+    shot_report_faults(run->r->job.shot, faults);
 }
 
 // ---- the end
@@ -311,13 +285,13 @@ static int stop(struct bands_run *run) {
 }
 
 static void note_statistics(struct bands_run *run, double seconds) {
-    struct stats *s = &run->r->stats;
+    struct stats *s = &run->r->job.stats;
     s->last = run->all;
     s->frames = 1;
     s->first_frame_seconds = s->least_frame_seconds = s->most_frame_seconds = s->median_frame_seconds =
         seconds;
     s->median_device_seconds = run->all.device_seconds;
-    run->r->shot.settings.height = run->bands.part.region.height;
+    run->r->job.shot->settings.height = run->bands.part.region.height;
 }
 
 int render_in_bands(struct rendering *r, uint32_t camera) {
@@ -328,7 +302,7 @@ int render_in_bands(struct rendering *r, uint32_t camera) {
     const double start = clock_seconds();
     if (status == CLI_OK)
         status = take_bands(&run);
-    timeline_add(r->timeline, "bands", STR(""), start);
+    timeline_add(r->job.wish.timeline, "bands", STR(""), start);
     note_statistics(&run, clock_seconds() - start);
     if (status == CLI_OK) {
         progress_end(&r->progress);

@@ -1,8 +1,6 @@
 // Pictures of a batch after tracing: encoded and written beside the next one's tracing.
 #include "cli/commands/batch/batch_run.h"
-#include "cli/commands/parts/part_made.h"
 #include "cli/made.h"
-#include "render/record/provenance.h"
 
 #include <string.h>
 
@@ -39,25 +37,19 @@ static void encode(void *context) {
 
 // While the session is still that of this picture.
 static struct image_texts texts_of(struct batch_run *run, enum image_format format) {
-    const struct session *session = run->live.session;
-    const struct provenance provenance = {.session = session,
-                                          .gpu = run->gpu,
-                                          .camera = run->live.camera,
-                                          .is_double = run->live.shot.flat.is_double,
-                                          .format = format,
-                                          .coding = render_coding(&run->cli->options, format)};
-    return has_film(run) || has_sheet(run) || run->outputs.is_part
-               ? (struct image_texts){0}
-               : provenance_texts(&provenance, &run->cli->arena);
+    const struct job *job = &run->outputs.job;
+    const struct provenance made = job_provenance(job, format, render_coding(&run->cli->options, format));
+    return has_film(run) || has_sheet(run) || job->is_part ? (struct image_texts){0}
+                                                           : provenance_texts(&made, &run->cli->arena);
 }
 
 void batch_encode(struct batch_run *run, struct batch_made *made) {
     made->run = run;
     batch_note_scene(run, made);
-    made->part = run->outputs.part;
+    made->part = run->outputs.job.part;
     made->part.rgb = made->image.rgb;
-    if (run->outputs.is_part)
-        part_describe(run->cli, &run->live.shot, run->live.camera, &made->part);
+    if (run->outputs.job.is_part)
+        job_describe_part(&run->outputs.job, &made->part);
     for (uint32_t i = 0; i < run->outputs.output_count; i++) {
         strbuf_clear(&made->files[i]);
         made->texts[i] = texts_of(run, run->outputs.outputs[i].format);

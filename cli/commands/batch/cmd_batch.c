@@ -4,7 +4,6 @@
 // the next scene is read and the last picture encoded, each on one more thread.
 #include "cli/commands/batch/batch_run.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/parts/part_made.h"
 #include "cli/commands/pictures/done.h"
 #include "cli/device.h"
 #include "cli/made.h"
@@ -88,6 +87,7 @@ static int take_outputs(struct batch_run *run) {
     if (outputs->count == 0) // batch_name says what pictures are called
         *(struct cli_output *)ARENA_PUSH(&cli->arena, outputs) = (struct cli_output){.path = standard};
     run->outputs.cli = cli;
+    run->outputs.job.arena = &cli->arena;
     run->outputs.outputs = outputs->items;
     run->outputs.output_count = outputs->count;
     int status = run->batch.film ? CLI_OK : render_take_outputs(&run->outputs);
@@ -205,8 +205,8 @@ static uint32_t camera_of(const struct session *session, str name) {
     return name.len ? IR_NO_INDEX : 0;
 }
 
-static int plan_part(struct batch_run *run, const struct batch_job *job, const struct session *session) {
-    run->outputs.session.image = session->image;
+static int plan_part(struct batch_run *run, const struct batch_job *job, struct session *session) {
+    run->outputs.job.session = session;
     if (run->planned != job->number + 1)
         run->plan_status = run->batch.film ? CLI_OK : render_plan_part(&run->outputs);
     run->planned = job->number + 1;
@@ -215,13 +215,14 @@ static int plan_part(struct batch_run *run, const struct batch_job *job, const s
 
 // --skip-done: whether all files of a picture are there.
 static bool is_done(struct batch_run *run, const struct batch_job *job) {
-    const struct session *session = run->is_pending ? run->pending.session : run->live.session;
+    struct session *session = run->is_pending ? run->pending.session : run->live.session;
     if (!run->cli->options.batch.skip_done || !session || session->state != SESSION_LOADED ||
         session->sink.errors || camera_of(session, job->camera) == IR_NO_INDEX)
         return false;
     if (plan_part(run, job, session) != CLI_OK)
         return false;
-    const struct done_wish wish = {session, run->gpu, camera_of(session, job->camera), &run->outputs.part};
+    const struct done_wish wish = {session, run->gpu, camera_of(session, job->camera),
+                                   &run->outputs.job.part};
     bool done = true;
     for (uint32_t i = 0; i < run->outputs.output_count && done; i++)
         done = done_is_there(run->cli, &run->outputs.outputs[i], job->paths[i], &wish);
@@ -244,20 +245,21 @@ static int fit_image(struct batch_run *run, struct image *image, const struct re
 
 // Traces the picture that is shown into `made`.
 static int trace(struct batch_run *run, const struct batch_job *job, struct batch_made *made) {
-    struct render_statistics frame;
+    struct job *drawn = &run->outputs.job;
     const struct render_progress progress = progress_callback(&run->progress);
     int status = plan_part(run, job, run->live.session);
-    if (status == CLI_OK && run->outputs.is_part && !part_aim(&run->live.shot, &run->outputs.part)) {
+    job_follow(drawn, &run->live);
+    if (status == CLI_OK && job_aim(drawn) != SHOT_OK) {
         progress_end(&run->progress);
         return cli_device_failed(run->cli, run->gpu);
     }
     if (status == CLI_OK)
-        status = fit_image(run, &made->image, &run->live.shot.settings);
+        status = fit_image(run, &made->image, &drawn->shot->settings);
     if (status != CLI_OK)
         return status;
-    const uint32_t errors = run->live.session->sink.errors;
+    const uint32_t errors = drawn->session->sink.errors;
     const double start = clock_seconds();
-    const enum shot_status taken = shot_take(&run->live.shot, &made->image, &progress, &frame);
+    const enum shot_status taken = job_frame(drawn, &made->image, &progress);
     run->counts.trace_seconds += clock_seconds() - start;
     if (taken == SHOT_CANCELLED)
         return CLI_INTERRUPTED;
@@ -266,8 +268,8 @@ static int trace(struct batch_run *run, const struct batch_job *job, struct batc
         return taken == SHOT_DEVICE ? cli_device_failed(run->cli, run->gpu) : CLI_SCENE;
     }
     made->job = job;
-    made->display = run->live.shot.display;
-    return run->live.session->sink.errors > errors ? CLI_SCENE : CLI_OK;
+    made->display = job_display(drawn);
+    return drawn->session->sink.errors > errors ? CLI_SCENE : CLI_OK;
 }
 
 static int broken_status(struct batch_run *run) {

@@ -3,13 +3,11 @@
 // picture is over at once, a larger one is measured.
 #include "cli/commands/batch/batch_job.h"
 #include "cli/commands/farm/farm.h"
-#include "cli/commands/parts/part_made.h"
 #include "cli/device.h"
 #include "cli/progress.h"
 #include "core/clock.h"
 #include "grammar/ir.h"
-#include "render/parts/part_file.h"
-#include "render/shot.h"
+#include "render/job/job.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -43,56 +41,55 @@ static int failed(struct pilot *p, struct session *session, enum shot_status sta
 }
 
 // One small picture; *seconds is what it took.
-static enum shot_status take(struct pilot *p, struct shot *shot, uint32_t width, uint32_t height,
+static enum shot_status take(struct pilot *p, struct job *drawn, uint32_t width, uint32_t height,
                              double *seconds) {
-    const uint32_t samples = (uint32_t)shot->session->image->samples;
-    const struct part small = {.width = width,
-                               .height = height,
-                               .region = {0, 0, width, height},
-                               .samples = samples,
-                               .end_sample = samples};
-    struct image image;
-    struct render_statistics statistics;
+    const uint32_t samples = (uint32_t)drawn->session->image->samples;
     const struct render_progress progress = progress_callback(&p->progress);
-    if (!part_aim(shot, &small))
+    drawn->is_part = true;
+    drawn->part = (struct part){.width = width,
+                                .height = height,
+                                .region = {0, 0, width, height},
+                                .samples = samples,
+                                .end_sample = samples};
+    if (job_aim(drawn) != SHOT_OK)
         return SHOT_DEVICE;
-    if (!image_init(&image, width, height))
-        return shot_no_memory(shot->session, "the small picture");
+    if (!image_init(&drawn->image, width, height))
+        return shot_no_memory(drawn->session, "the small picture");
     const double start = clock_seconds();
-    const enum shot_status status = shot_take(shot, &image, &progress, &statistics);
+    const enum shot_status status = job_frame(drawn, &drawn->image, &progress);
     *seconds = clock_seconds() - start;
-    image_finish(&image);
+    image_finish(&drawn->image);
     return status;
 }
 
 // The least of some: kernels are compiled with the first ones.
-static enum shot_status take_least(struct pilot *p, struct shot *shot, uint32_t width, uint32_t height,
+static enum shot_status take_least(struct pilot *p, struct job *drawn, uint32_t width, uint32_t height,
                                    double *seconds) {
     enum shot_status status = SHOT_OK;
     *seconds = INFINITY;
     for (int i = 0; i < TAKES && status == SHOT_OK; i++) {
         double one = 0;
-        status = take(p, shot, width, height, &one);
+        status = take(p, drawn, width, height, &one);
         *seconds = fmin(*seconds, one);
     }
     return status;
 }
 
-static int measure_shot(struct pilot *p, struct shot *shot) {
+static int measure_job(struct pilot *p, struct job *drawn) {
     struct farm_pilot *out = &p->plan->pilot;
     double seconds = 0;
-    uint32_t width = (uint32_t)shot->session->image->width, height = (uint32_t)shot->session->image->height;
-    enum shot_status status = take_least(p, shot, width, height, &seconds);
+    uint32_t width = (uint32_t)drawn->session->image->width, height = (uint32_t)drawn->session->image->height;
+    enum shot_status status = take_least(p, drawn, width, height, &seconds);
     while (status == SHOT_OK && seconds < ENOUGH_SECONDS &&
            (width < p->whole_width || height < p->whole_height)) {
         width = width * 2 < p->whole_width ? width * 2 : p->whole_width;
         height = height * 2 < p->whole_height ? height * 2 : p->whole_height;
-        status = take_least(p, shot, width, height, &seconds);
+        status = take_least(p, drawn, width, height, &seconds);
     }
     out->width = width;
     out->height = height;
     out->picture_s += seconds / ((double)width * height) * p->whole_width * p->whole_height;
-    return status == SHOT_OK ? CLI_OK : failed(p, shot->session, status);
+    return status == SHOT_OK ? CLI_OK : failed(p, drawn->session, status);
 }
 
 static int judge_session(struct pilot *p, struct session *session) {
@@ -141,7 +138,7 @@ int farm_check(struct cli *cli, struct farm_plan *plan) {
 static int measure_frame(struct pilot *p, const struct batch_job *job, uint32_t number) {
     struct session session;
     struct session_options options = cli_session_options(p->cli, job->scene);
-    struct shot shot = {0};
+    struct job drawn = {.session = &session, .gpu = p->gpu};
     const double start = clock_seconds();
     options.sets = job->sets;
     options.set_count = job->set_count;
@@ -164,13 +161,11 @@ static int measure_frame(struct pilot *p, const struct batch_job *job, uint32_t 
     const double opened = clock_seconds();
     if (status == CLI_OK) {
         const uint32_t camera = session_camera(&session, job->camera);
-        const enum shot_status open =
-            camera == IR_NO_INDEX ? SHOT_SCENE
-                                  : shot_open_for(&shot, &session, p->gpu, camera, (struct shot_wish){0});
+        const enum shot_status open = camera == IR_NO_INDEX ? SHOT_SCENE : job_open(&drawn, camera);
         p->load_s[number] = loaded + clock_seconds() - opened;
-        status = open == SHOT_OK ? measure_shot(p, &shot) : failed(p, &session, open);
+        status = open == SHOT_OK ? measure_job(p, &drawn) : failed(p, &session, open);
     }
-    shot_close(&shot);
+    job_close(&drawn);
     session_finish(&session);
     return status;
 }

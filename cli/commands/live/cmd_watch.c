@@ -1,6 +1,5 @@
 // glint render SCENE --watch: a picture now, and one after each change of a file that it is made from.
 #include "cli/commands/commands.h"
-#include "cli/commands/live/coarse.h"
 #include "cli/commands/rendering.h"
 #include "cli/device.h"
 #include "cli/made.h"
@@ -8,8 +7,8 @@
 #include "core/clock.h"
 #include "grammar/ir.h"
 #include "picture/write/image.h"
+#include "render/live/coarse.h"
 #include "render/live/live_report.h"
-#include "render/record/provenance.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -23,6 +22,7 @@
 struct watching {
     struct cli *cli;
     struct live live;
+    struct job job; // of what is shown
     struct gpu *gpu;
     const char *output;
     enum image_format format;
@@ -90,7 +90,7 @@ static int encode_and_write(struct watching *w, double *encode_seconds) {
     struct strbuf file;
     strbuf_init(&file);
     const double start = clock_seconds();
-    image_encode(&w->image, w->format, w->live.shot.display, &file);
+    image_encode(&w->image, w->format, job_display(&w->job), &file);
     *encode_seconds = clock_seconds() - start;
     const int status = cli_write_made(w->cli, w->output, &file, "the picture");
     strbuf_finish(&file);
@@ -116,12 +116,7 @@ static int show_coarse(struct watching *w, const struct render_progress *progres
 
 static int write_picture(struct watching *w, double *encode_seconds) {
     w->image.coding = render_coding(&w->cli->options, w->format);
-    const struct provenance made = {.session = w->live.session,
-                                    .gpu = w->live.gpu,
-                                    .camera = w->live.camera,
-                                    .is_double = w->live.shot.flat.is_double,
-                                    .format = w->format,
-                                    .coding = w->image.coding};
+    const struct provenance made = job_provenance(&w->job, w->format, w->image.coding);
     w->image.texts = provenance_texts(&made, &w->cli->arena);
     return encode_and_write(w, encode_seconds);
 }
@@ -146,13 +141,14 @@ static int tell(struct watching *w, const struct live_report *report) {
 }
 
 static int show_picture(struct watching *w) {
-    struct render_statistics frame;
+    const struct render_statistics *frame = &w->job.stats.last;
     const struct render_progress progress = {goes_on, w};
     const bool quiet = w->cli->options.quiet;
     if (!fit_image(w)) {
         cli_error(w->cli, DIAG_OUT_OF_MEMORY, w->output, NULL, "not enough memory for the picture");
         return CLI_SCENE;
     }
+    job_follow(&w->job, &w->live);
     w->is_stale = false;
     w->looked = clock_seconds();
     progress_begin(&w->progress, quiet);
@@ -160,7 +156,7 @@ static int show_picture(struct watching *w) {
     const int coarse = show_coarse(w, &progress, &coarse_seconds);
     enum shot_status status = SHOT_CANCELLED;
     if (coarse == CLI_OK && !w->is_stale && !interrupt_signal())
-        status = shot_take(&w->live.shot, &w->image, &progress, &frame);
+        status = job_frame(&w->job, &w->image, &progress);
     progress_end(&w->progress);
     if (coarse != CLI_OK)
         return coarse;
@@ -169,13 +165,13 @@ static int show_picture(struct watching *w) {
         return CLI_OK;
     if (status == SHOT_DEVICE)
         return cli_device_failed(w->cli, w->gpu);
-    w->pixel_seconds = frame.wall_seconds / ((double)w->image.width * w->image.height * frame.samples);
+    w->pixel_seconds = frame->wall_seconds / ((double)w->image.width * w->image.height * frame->samples);
     cli_report(w->cli, w->live.session, !quiet);
     struct live_report report = {.live = &w->live,
                                  .output = w->output,
                                  .width = w->image.width,
                                  .height = w->image.height,
-                                 .frame = &frame,
+                                 .frame = frame,
                                  .coarse_seconds = coarse_seconds};
     const int written = write_picture(w, &report.encode_seconds);
     report.total_seconds = clock_seconds() - w->changed;

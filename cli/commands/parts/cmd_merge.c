@@ -77,7 +77,7 @@ static int add_parts(struct rendering *r, const uint32_t *order, uint32_t count)
         struct part part;
         status = read_part(r->cli, order[i], false, &part);
         if (status == CLI_OK)
-            parts_add(&part, &r->image);
+            parts_add(&part, &r->job.image);
         part_finish(&part);
     }
     return status;
@@ -86,7 +86,7 @@ static int add_parts(struct rendering *r, const uint32_t *order, uint32_t count)
 // What a row cannot be made of alone: parts of samples, and formats that are coded as a whole.
 static int merge_at_once(struct rendering *r, const uint32_t *order, uint32_t count) {
     struct cli *cli = r->cli;
-    const uint32_t width = r->image.width, height = r->image.height;
+    const uint32_t width = r->job.image.width, height = r->job.image.height;
     if ((uint64_t)width * height > RANGE_PIXELS_MOST) {
         const int status =
             cli_usage(cli, cli_operand_place(cli, 0),
@@ -95,7 +95,7 @@ static int merge_at_once(struct rendering *r, const uint32_t *order, uint32_t co
         diag_help(&cli->sink, "choose one of these endings, and take parts by --tile or --region");
         return status;
     }
-    if (!image_init(&r->image, width, height)) {
+    if (!image_init(&r->job.image, width, height)) {
         cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory for the picture");
         return CLI_SCENE;
     }
@@ -137,10 +137,9 @@ static int merge(struct rendering *r) {
             r->record = NULL;
     if (is_done(r))
         return CLI_OK;
-    r->image_made.tone = parts->display.tone;
-    r->image_made.transfer = parts->display.transfer;
-    r->session.image = &r->image_made;
-    r->image = (struct image){.width = parts->width, .height = parts->height};
+    struct ir_image image = {.tone = parts->display.tone, .transfer = parts->display.transfer};
+    r->job.session->image = &image;
+    r->job.image = (struct image){.width = parts->width, .height = parts->height};
     status = render_judge_size(r);
     if (status == CLI_OK)
         status = merge_is_by_rows(r, parts, count) ? merge_rows(r, parts, order, count)
@@ -151,9 +150,10 @@ static int merge(struct rendering *r) {
 }
 
 static int merge_once(struct cli *cli) {
-    struct rendering r = {.cli = cli};
+    struct session session = {0}; // without a scene: the parts say how their picture is displayed
+    struct rendering r = {.cli = cli, .job = {.session = &session, .arena = &cli->arena}};
     const int status = merge(&r);
-    image_finish(&r.image);
+    job_close(&r.job);
     return status;
 }
 

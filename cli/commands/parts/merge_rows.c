@@ -83,11 +83,11 @@ static bool take(void *context, uint32_t y, uint32_t count, float *rgb) {
 
 static int write_picture(struct rendering *r, struct merging *m) {
     const struct cli_output *output = &r->outputs[0];
-    const struct image_display display = {r->session.image->tone, r->session.image->transfer};
+    const struct image_display display = {r->job.session->image->tone, r->job.session->image->transfer};
     const struct image_coding coding = render_coding(&r->cli->options, output->format);
     const struct image_rows rows = {
-        .width = r->image.width,
-        .height = r->image.height,
+        .width = r->job.image.width,
+        .height = r->job.image.height,
         .take = take,
         .context = m,
         .texts = r->record ? provenance_of_line(r->record, output->format, coding, &r->cli->arena)

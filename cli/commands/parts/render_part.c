@@ -1,12 +1,7 @@
 // A render job that makes a part of a picture.
-#include "cli/commands/parts/part_made.h"
 #include "cli/commands/rendering.h"
 #include "cli/device.h"
-#include "core/hash128.h"
-#include "core/heap.h"
-#include "reference/cache.h"
 #include "render/parts/parts.h"
-#include "render/record/provenance.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -78,7 +73,7 @@ int render_judge_part(struct rendering *r) {
 static int plan_region(struct rendering *r) {
     struct cli *cli = r->cli;
     const struct cli_part *wish = &cli->options.part;
-    struct part *part = &r->part;
+    struct part *part = &r->job.part;
     const uint32_t *wanted = wish->region;
     part->region = (struct part_region){0, 0, part->width, part->height};
     if (wish->region[2])
@@ -100,7 +95,7 @@ static int plan_region(struct rendering *r) {
 
 static int plan_samples(struct rendering *r) {
     const struct cli_part *wish = &r->cli->options.part;
-    struct part *part = &r->part;
+    struct part *part = &r->job.part;
     part->first_sample = (uint32_t)wish->samples_from;
     part->end_sample = wish->samples_to ? (uint32_t)wish->samples_to : part->samples;
     if (part->first_sample < part->end_sample && part->end_sample <= part->samples)
@@ -112,7 +107,7 @@ static int plan_samples(struct rendering *r) {
 
 // Some of the samples are a part, and no picture.
 static int judge_outputs(struct rendering *r) {
-    const struct part *part = &r->part;
+    const struct part *part = &r->job.part;
     const bool few = part->end_sample - part->first_sample < part->samples;
     for (uint32_t i = 0; i < r->output_count && few; i++) {
         const struct cli_output *output = &r->outputs[i];
@@ -128,16 +123,16 @@ static int judge_outputs(struct rendering *r) {
 }
 
 int render_plan_part(struct rendering *r) {
-    const struct ir_image *image = r->session.image;
-    struct part *part = &r->part;
+    const struct ir_image *image = r->job.session->image;
+    struct part *part = &r->job.part;
     *part = (struct part){.width = (uint32_t)image->width,
                           .height = (uint32_t)image->height,
                           .samples = (uint32_t)image->samples,
                           .end_sample = (uint32_t)image->samples,
                           .display = {image->tone, image->transfer}};
     part->region = (struct part_region){0, 0, part->width, part->height};
-    r->is_part = render_wants_part(r);
-    if (!r->is_part)
+    r->job.is_part = render_wants_part(r);
+    if (!r->job.is_part)
         return CLI_OK;
     if (image->error > 0) {
         const int status = cli_usage(r->cli, place_of(r),
@@ -152,90 +147,13 @@ int render_plan_part(struct rendering *r) {
     return status == CLI_OK ? judge_outputs(r) : status;
 }
 
-// ---- rendering it
-
-bool part_aim(struct shot *shot, const struct part *part) {
-    shot->settings.width = part->region.width;
-    shot->settings.height = part->region.height;
-    shot->settings.whole_width = part->width;
-    shot->settings.whole_height = part->height;
-    shot->settings.first_x = part->region.x;
-    shot->settings.first_y = part->region.y;
-    shot->settings.whole_samples = part->samples;
-    shot->settings.first_sample = part->first_sample;
-    shot->settings.samples =
-        part_planes(part) > 1 || part->samples > part->end_sample - part->first_sample ? 1 : part->samples;
-    return renderer_change(shot->renderer, &shot->flat, &shot->settings);
-}
-
-bool render_aim_at_part(struct rendering *r) {
-    return !r->is_part || part_aim(&r->shot, &r->part);
-}
-
-static size_t plane_floats(const struct part *part) {
-    return heap_times(heap_times(part->region.width, part->region.height), 3);
-}
-
-// Samples one after the other, each into a plane of its own.
-static enum shot_status take_samples(struct rendering *r, const struct render_progress *progress) {
-    struct part *part = &r->part;
-    const size_t floats = plane_floats(part);
-    enum shot_status status = SHOT_OK;
-    if (!part->rgb)
-        part->rgb = heap_array(heap_times(floats, part_planes(part)), sizeof *part->rgb);
-    if (!part->rgb)
-        return shot_no_memory(&r->session, "the samples of the part");
-    for (uint32_t i = 0; status == SHOT_OK && i < part_planes(part); i++) {
-        r->shot.settings.first_sample = part->first_sample + i;
-        if (!renderer_change(r->shot.renderer, &r->shot.flat, &r->shot.settings))
-            return SHOT_DEVICE;
-        status = shot_take(&r->shot, &r->image, progress, &r->stats.last);
-        memcpy(part->rgb + i * floats, r->image.rgb, floats * sizeof *part->rgb);
-    }
-    return status;
-}
-
-enum shot_status render_take_part(struct rendering *r, const struct render_progress *progress) {
-    const struct part *part = &r->part;
-    return part->end_sample - part->first_sample < part->samples
-               ? take_samples(r, progress)
-               : shot_take(&r->shot, &r->image, progress, &r->stats.last);
-}
-
 // ---- its file
-
-static void make_keys(const struct shot *shot, struct part *part) {
-    const struct reference_input input = {.scene = &shot->session->resolved, .view = &shot->view};
-    struct hash128 h;
-    reference_input_key(&input, part->scene);
-    hash128_begin(&h);
-    hash128_text(&h, STR(GLINT_VERSION));
-    hash128_whole(&h, shot->flat.is_double);
-    hash128_whole(&h, shot->settings.features);
-    hash128_whole(&h, shot->settings.path_segments);
-    hash128_end(&h, part->settings);
-}
-
-void part_describe(struct cli *cli, const struct shot *shot, uint32_t camera, struct part *part) {
-    make_keys(shot, part);
-    snprintf(part->device, sizeof part->device, "%s", gpu_info(shot->gpu)->name);
-    const struct provenance made = {.session = shot->session,
-                                    .gpu = shot->gpu,
-                                    .camera = camera,
-                                    .is_double = shot->flat.is_double,
-                                    .format = IMAGE_PNG};
-    provenance_line(&made, &cli->arena, part->record, sizeof part->record);
-}
-
-void render_fill_part(struct rendering *r) {
-    part_describe(r->cli, &r->shot, r->camera, &r->part);
-}
 
 void render_encode_part(struct rendering *r, struct strbuf *out) {
     struct part part;
-    render_fill_part(r);
-    part = r->part;
+    job_describe_part(&r->job, &r->job.part);
+    part = r->job.part;
     if (!part.rgb)
-        part.rgb = r->image.rgb;
+        part.rgb = r->job.image.rgb;
     part_encode(&part, out);
 }

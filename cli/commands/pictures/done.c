@@ -130,8 +130,8 @@ bool done_is_there(struct cli *cli, const struct cli_output *output, const char 
 
 // What a job is to write, camera by camera.
 static bool is_done(struct rendering *r, uint32_t camera) {
-    const struct done_wish wish = {&r->session, cli_device_is_reference(r->cli) ? NULL : r->gpu, camera,
-                                   &r->part};
+    const struct done_wish wish = {r->job.session, cli_device_is_reference(r->cli) ? NULL : r->job.gpu,
+                                   camera, &r->job.part};
     bool done = true;
     for (uint32_t i = 0; i < r->output_count && done; i++)
         done = done_is_there(r->cli, &r->outputs[i], render_output_of(r, &r->outputs[i], camera), &wish);

@@ -15,7 +15,7 @@ enum {
 
 // ---- the command line
 
-static const struct cli_output *exr_output(const struct rendering *r) {
+const struct cli_output *render_exr_output(const struct rendering *r) {
     for (uint32_t i = 0; i < r->output_count; i++)
         if (r->outputs[i].format == IMAGE_EXR)
             return &r->outputs[i];
@@ -39,11 +39,11 @@ static int judge_error(const struct rendering *r) {
 }
 
 int render_judge_aovs(struct rendering *r) {
-    const struct scene *scene = &r->session.resolved;
+    const struct scene *scene = &r->job.session->resolved;
     uint32_t most = scene->material_count > scene->body_count ? scene->material_count : scene->body_count;
-    if (wants(r, AOV_ERROR) && !(r->session.image->error > 0))
+    if (wants(r, AOV_ERROR) && !(r->job.session->image->error > 0))
         return judge_error(r);
-    if (exr_output(r))
+    if (render_exr_output(r))
         return CLI_OK;
     for (uint32_t i = 0; i < scene->body_count && wants(r, AOV_INDEX); i++)
         most = scene->bodies[i].triangle_count > most ? scene->bodies[i].triangle_count : most;
@@ -55,38 +55,9 @@ int render_judge_aovs(struct rendering *r) {
     return status;
 }
 
-// ---- making them
-
-static int no_memory(struct rendering *r) {
+int render_no_memory_for_aovs(struct rendering *r) {
     cli_error(r->cli, DIAG_OUT_OF_MEMORY, r->outputs[0].path, NULL, "not enough memory for --aov");
     return CLI_SCENE;
-}
-
-int render_make_aovs(struct rendering *r, struct reference_shot *reference) {
-    struct layers_wish wish = {.shot = reference ? NULL : &r->shot,
-                               .reference = reference,
-                               .estimate = reference ? NULL : render_estimate_of(r),
-                               .width = r->image.width,
-                               .height = r->image.height,
-                               .wanted = r->cli->options.aovs,
-                               .in_picture = exr_output(r)};
-    const struct render_progress progress = progress_callback(&r->progress);
-    if (!wish.wanted)
-        return CLI_OK;
-    r->layers = ARENA_NEW(&r->cli->arena, struct layers);
-    const enum shot_status status = layers_make(r->layers, &r->session, &wish, &progress, &r->cli->arena);
-    if (status == SHOT_NO_MEMORY)
-        return no_memory(r);
-    if (wish.in_picture)
-        r->image.layers = &r->layers->layers;
-    return status == SHOT_OK ? CLI_OK : render_failed(r, status);
-}
-
-void render_drop_aovs(struct rendering *r) {
-    r->image.layers = NULL;
-    if (r->layers)
-        layers_finish(r->layers);
-    r->layers = NULL;
 }
 
 // ---- files of their own
@@ -110,8 +81,8 @@ static int write_plane(struct rendering *r, str stem, enum aov aov) {
     const char *path = plane_name(r, stem, aov);
     struct image image;
     struct strbuf file;
-    if (!layers_plane(r->layers, aov, &image))
-        return no_memory(r);
+    if (!layers_plane(r->job.layers, aov, &image))
+        return render_no_memory_for_aovs(r);
     strbuf_init(&file);
     image_encode(&image, IMAGE_PFM, (struct image_display){0}, &file);
     const int status = write_made(r, path, &file);
@@ -124,7 +95,7 @@ static int write_names(struct rendering *r, str stem) {
     const char *path = list_name(r, stem);
     struct strbuf file;
     strbuf_init(&file);
-    aov_names_json(&r->layers->names, &r->session.sources, &file);
+    aov_names_json(&r->job.layers->names, &r->job.session->sources, &file);
     const int status = write_made(r, path, &file);
     strbuf_finish(&file);
     return status;
@@ -132,7 +103,7 @@ static int write_names(struct rendering *r, str stem) {
 
 // The output that the files lie beside.
 static const struct cli_output *output_beside(const struct rendering *r) {
-    const struct cli_output *beside = exr_output(r);
+    const struct cli_output *beside = render_exr_output(r);
     beside = beside ? beside : r->outputs;
     while (beside + 1 < r->outputs + r->output_count && strcmp(beside->path, "-") == 0)
         beside++;
@@ -146,7 +117,7 @@ int render_judge_aov_names(struct rendering *r, uint32_t camera) {
     const struct cli_output *beside = output_beside(r);
     const char *typed = render_typed(beside);
     const str stem = render_stem_of(str_from(render_output_of(r, beside, camera)));
-    for (int i = 0; i < AOVS && status == CLI_OK && !exr_output(r); i++)
+    for (int i = 0; i < AOVS && status == CLI_OK && !render_exr_output(r); i++)
         if (wants(r, (enum aov)i))
             status = cli_judge_made(r->cli, typed, plane_name(r, stem, (enum aov)i));
     if (status == CLI_OK && (wants(r, AOV_OBJECT) || wants(r, AOV_MATERIAL)))
@@ -155,9 +126,9 @@ int render_judge_aov_names(struct rendering *r, uint32_t camera) {
 }
 
 int render_write_aovs(struct rendering *r, uint32_t camera) {
-    const bool apart = !exr_output(r);
+    const bool apart = !render_exr_output(r);
     int status = CLI_OK;
-    if (!r->layers)
+    if (!r->job.layers)
         return CLI_OK;
     const struct cli_output *beside = output_beside(r);
     const str stem = render_stem_of(str_from(render_output_of(r, beside, camera)));

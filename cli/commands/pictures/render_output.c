@@ -1,10 +1,8 @@
 // What render writes: its pictures.
 #include "cli/commands/rendering.h"
-#include "cli/device.h"
 #include "core/clock.h"
 #include "core/timeline.h"
 #include "grammar/ir.h"
-#include "render/record/provenance.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -27,7 +25,7 @@ static const char *camera_output(struct rendering *r, str path, str camera) {
 
 const char *render_output_of(struct rendering *r, const struct cli_output *output, uint32_t camera) {
     return r->all_cameras
-               ? camera_output(r, str_from(output->path), r->session.scene->cameras.items[camera].name)
+               ? camera_output(r, str_from(output->path), r->job.session->scene->cameras.items[camera].name)
                : output->path;
 }
 
@@ -116,8 +114,8 @@ static int judge_coding(struct rendering *r) {
 int render_judge_size(struct rendering *r) {
     const struct cli_measure *m = &r->cli->options.measure;
     const bool scaled = m->scale_width != 0;
-    const uint32_t width = scaled ? m->scale_width : r->image.width;
-    const uint32_t height = scaled ? m->scale_height : r->image.height;
+    const uint32_t width = scaled ? m->scale_width : r->job.image.width;
+    const uint32_t height = scaled ? m->scale_height : r->job.image.height;
     for (uint32_t i = 0; i < r->output_count; i++) {
         const struct image_format_info *info = image_format_info(r->outputs[i].format);
         if (!r->outputs[i].is_part && info->side_max && (width > info->side_max || height > info->side_max)) {
@@ -163,34 +161,24 @@ static int write_made(struct rendering *r, const char *path, const struct strbuf
     }
     const double start = clock_seconds();
     const int status = cli_write(r->cli, path, strbuf_view(file));
-    timeline_add(r->timeline, "write", str_from(path), start);
+    timeline_add(r->job.wish.timeline, "write", str_from(path), start);
     return status;
 }
 
 void render_encode(struct rendering *r, enum image_format format, struct strbuf *out) {
-    const struct image_display display = {r->session.image->tone, r->session.image->transfer};
-    const struct cli_options *options = &r->cli->options;
-    const bool is_scaled = options->measure.scale_width != 0;
-    const bool by_reference = cli_device_is_reference(r->cli);
-    const struct provenance made = {.session = &r->session,
-                                    .gpu = by_reference ? NULL : r->gpu,
-                                    .camera = r->camera,
-                                    .is_double = by_reference || r->shot.flat.is_double,
-                                    .as_file = options->as_file,
-                                    .audits = r->stats.has_audit,
-                                    .max_off = options->has_max_off ? options->max_off : -1,
-                                    .scaled_width = is_scaled ? r->image.width : 0,
-                                    .scaled_height = is_scaled ? r->image.height : 0,
-                                    .format = format,
-                                    .coding = render_coding(options, format)};
-    r->display = display;
-    r->image.coding = made.coding;
-    // Parts are joined without a session, and no part of a picture is made by the command of all of it.
-    r->image.texts =
-        r->session.scene && !r->is_part ? provenance_texts(&made, &r->cli->arena) : (struct image_texts){0};
+    struct job *job = &r->job;
+    const struct image_coding coding = render_coding(&r->cli->options, format);
+    r->display = job_display(job);
+    job->image.coding = coding;
+    job->image.texts = (struct image_texts){0};
     if (r->record)
-        r->image.texts = provenance_of_line(r->record, format, made.coding, &r->cli->arena);
-    image_encode(&r->image, format, display, out);
+        job->image.texts = provenance_of_line(r->record, format, coding, job->arena);
+    else if (job->session->scene && !job->is_part) {
+        // Parts are joined without a scene, and no part of a picture is made by the command of all of it.
+        const struct provenance made = job_provenance(job, format, coding);
+        job->image.texts = provenance_texts(&made, job->arena);
+    }
+    image_encode(&job->image, format, r->display, out);
 }
 
 static int write_picture(struct rendering *r, const struct cli_output *output, const char *path) {
@@ -201,8 +189,8 @@ static int write_picture(struct rendering *r, const struct cli_output *output, c
         render_encode_part(r, &file);
     else
         render_encode(r, output->format, r->kept ? r->kept : &file);
-    r->stats.encode_seconds += clock_seconds() - start;
-    timeline_add(r->timeline, "encode", str_from(path), start);
+    r->job.stats.encode_seconds += clock_seconds() - start;
+    timeline_add(r->job.wish.timeline, "encode", str_from(path), start);
     const int status = r->kept ? CLI_OK : write_made(r, path, &file);
     strbuf_finish(&file);
     return status;
@@ -210,8 +198,8 @@ static int write_picture(struct rendering *r, const struct cli_output *output, c
 
 int render_write_pictures(struct rendering *r, uint32_t camera) {
     int status = CLI_OK;
-    r->stats.encode_seconds = 0;
-    r->camera = camera;
+    r->job.stats.encode_seconds = 0;
+    r->job.camera = camera;
     for (uint32_t i = 0; i < r->output_count && status == CLI_OK; i++)
         status = write_picture(r, &r->outputs[i], render_output_of(r, &r->outputs[i], camera));
     r->written = clock_seconds();
@@ -222,11 +210,5 @@ void render_tell_written(struct rendering *r, uint32_t camera) {
     for (uint32_t i = 0; i < r->output_count; i++)
         if (!is_stdout(&r->outputs[i]))
             fprintf(stderr, "glint: wrote %s, %u x %u\n", render_output_of(r, &r->outputs[i], camera),
-                    r->image.width, r->image.height);
-}
-
-// ---- what is known of where pixels ended
-
-const struct render_estimate *render_estimate_of(const struct rendering *r) {
-    return r->shot.settings.error > 0 ? renderer_estimate(r->shot.renderer) : NULL;
+                    r->job.image.width, r->job.image.height);
 }

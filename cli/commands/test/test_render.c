@@ -8,10 +8,8 @@
 #include "core/nearest.h"
 #include "grammar/ir.h"
 #include "load/check.h"
-#include "render/live/live.h"
-#include "render/record/provenance.h"
+#include "render/job/job.h"
 #include "render/record/record.h"
-#include "render/reference_shot.h"
 
 #include <string.h>
 
@@ -23,6 +21,7 @@ struct tester {
     struct live_loaded loaded;     // of the reference: what it renders
     const struct test_case *shown; // whose scene is loaded and good; NULL: none
     str device;
+    struct job job; // that draws a case
     struct image image;
     struct progress progress;
 };
@@ -203,42 +202,24 @@ static int show(struct tester *t, struct test_case *test) {
     return state == LIVE_SHOWN ? CLI_OK : scene_failed(t, test, live_findings(&t->live));
 }
 
-static int trace(struct tester *t, struct test_case *test, struct image_display *display) {
-    struct render_statistics frame;
-    int status = show(t, test);
-    if (status != CLI_OK || test->state == TEST_FAILED)
-        return status;
-    struct session *session = t->live.session;
+// What is shown, or what the reference draws of the session.
+static int draw(struct tester *t, struct test_case *test, struct session *session) {
+    struct job *job = &t->job;
     const uint32_t errors = session->sink.errors;
     const struct render_progress progress = progress_callback(&t->progress);
-    status = fit_image(t, test, session);
-    if (status == CLI_OK)
-        status = ended(t, test, session, shot_take(&t->live.shot, &t->image, &progress, &frame), errors);
-    *display = t->live.shot.display;
-    return status;
-}
-
-static bool report(void *context, double fraction) {
-    const struct render_progress *progress = context;
-    return progress->report(progress->context, fraction);
-}
-
-static int trace_by_reference(struct tester *t, struct test_case *test, struct session *session) {
-    const struct cli_options *options = &t->run->cli->options;
-    struct reference_shot shot;
-    struct reference_statistics statistics;
-    struct render_progress callback = progress_callback(&t->progress);
-    const struct reference_progress progress = {report, &callback};
-    const uint32_t errors = session->sink.errors;
-    const uint32_t camera = session_camera(session, test->settings.camera);
     const int fits = fit_image(t, test, session);
+    enum shot_status status = SHOT_OK;
     if (fits != CLI_OK)
         return fits;
-    enum shot_status status = reference_shot_open(
-        &shot, session, camera, (struct reference_shot_options){.no_cache = options->no_cache});
+    *job = (struct job){.session = session,
+                        .wish = {.by_reference = t->is_reference, .no_cache = t->run->cli->options.no_cache}};
+    if (t->is_reference)
+        status = job_open(job, session_camera(session, test->settings.camera));
+    else
+        job_follow(job, &t->live);
     if (status == SHOT_OK)
-        status = reference_shot_take(&shot, &t->image, NULL, &progress, &statistics);
-    reference_shot_close(&shot);
+        status = job_frame(job, &t->image, &progress);
+    job_close(job);
     return ended(t, test, session, status, errors);
 }
 
@@ -258,19 +239,11 @@ static struct image_coding test_coding(struct test_run *run, const struct test_c
     return coding;
 }
 
-static void encode(struct tester *t, const struct test_case *test, const struct session *session,
-                   struct test_made *made) {
-    struct cli *cli = t->run->cli;
+static void encode(struct tester *t, const struct test_case *test, struct test_made *made) {
+    made->display = job_display(&t->job);
     t->image.coding = test_coding(t->run, test);
-    const struct provenance provenance = {
-        .session = session,
-        .gpu = t->gpu,
-        .camera = t->is_reference ? session_camera((struct session *)session, test->settings.camera)
-                                  : t->live.camera,
-        .is_double = t->is_reference || t->live.shot.flat.is_double,
-        .format = test->format,
-        .coding = t->image.coding};
-    t->image.texts = provenance_texts(&provenance, &cli->arena);
+    const struct provenance provenance = job_provenance(&t->job, test->format, t->image.coding);
+    t->image.texts = provenance_texts(&provenance, &t->run->cli->arena);
     strbuf_clear(&made->file);
     image_encode(&t->image, test->format, made->display, &made->file);
     t->image.texts = (struct image_texts){0};
@@ -289,18 +262,17 @@ static int make(struct tester *t, struct test_case *test, struct test_made *made
     const char *missing = image_format_missing(test->format);
     if (missing)
         return fail(t, test, missing);
-    if (t->is_reference) {
-        made->display = (struct image_display){session->image->tone, session->image->transfer};
-        status = trace_by_reference(t, test, session);
-    } else {
-        status = trace(t, test, &made->display);
+    if (!t->is_reference) {
+        status = show(t, test);
         session = t->live.session;
     }
+    if (status == CLI_OK && test->state == TEST_PENDING)
+        status = draw(t, test, session);
     if (status != CLI_OK || test->state != TEST_PENDING)
         return status;
     t->shown = test;
     test->now = (struct test_size){t->image.width, t->image.height};
-    encode(t, test, session, made);
+    encode(t, test, made);
     return CLI_OK;
 }
 

@@ -1,4 +1,4 @@
-#include "cli/commands/live/coarse.h"
+#include "render/live/coarse.h"
 
 #include <string.h>
 

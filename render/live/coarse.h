@@ -1,8 +1,8 @@
 // A picture of few pixels, enlarged to all of them: something to see before a frame that takes long.
 //
 // Thread safety: as render/shot.h.
-#ifndef GLINT_CLI_COMMANDS_LIVE_COARSE_H
-#define GLINT_CLI_COMMANDS_LIVE_COARSE_H
+#ifndef GLINT_RENDER_LIVE_COARSE_H
+#define GLINT_RENDER_LIVE_COARSE_H
 
 #include "render/shot.h"
 
