@@ -17,12 +17,12 @@ struct writing {
 
 static bool take(void *context, uint32_t y, uint32_t count, float *rgb) {
     const struct writing *w = context;
-    return !(w->heeds && interrupt_signal()) && bands_take(&w->run->bands, y, count, rgb);
+    return !(w->heeds && interrupt_signal()) && bands_take(&w->run->work.bands, y, count, rgb);
 }
 
 static int cannot_read(struct bands_run *run) {
     cli_error(run->r->cli, DIAG_FILE_UNREADABLE, run->path, NULL, "cannot be read: %s",
-              strerror(run->bands.spool.error));
+              strerror(run->work.bands.spool.error));
     return CLI_FILE;
 }
 
@@ -37,8 +37,8 @@ static int write_file(struct bands_run *run, const struct cli_output *output, co
                       const struct image_texts *texts) {
     const struct ir_image *image = run->r->job.session->image;
     struct writing w = {run, !texts};
-    const struct image_rows rows = {.width = run->bands.part.region.width,
-                                    .height = run->bands.part.region.height,
+    const struct image_rows rows = {.width = run->work.bands.part.region.width,
+                                    .height = run->work.bands.part.region.height,
                                     .take = take,
                                     .context = &w,
                                     .texts = texts ? *texts : texts_of(run, output->format),
@@ -46,10 +46,10 @@ static int write_file(struct bands_run *run, const struct cli_output *output, co
     const struct image_display display = {image->tone, image->transfer};
     bool ended;
     const int status = row_file_write(run->r->cli, path, &rows, output->format, display,
-                                      output->is_part ? &run->bands.part : NULL, &ended);
+                                      output->is_part ? &run->work.bands.part : NULL, &ended);
     if (!ended)
         return status;
-    return run->bands.spool.error ? cannot_read(run) : CLI_STOPPED;
+    return run->work.bands.spool.error ? cannot_read(run) : CLI_STOPPED;
 }
 
 static bool is_streamed(const struct cli_output *output) {
@@ -66,12 +66,12 @@ static bool are_streamed(const struct rendering *r) {
 // Some of the files need all pixels at once: all are written from them.
 static int write_at_once(struct bands_run *run) {
     struct rendering *r = run->r;
-    const struct part_region *region = &run->bands.part.region;
+    const struct part_region *region = &run->work.bands.part.region;
     if (!image_init(&r->job.image, region->width, region->height)) {
         cli_error(r->cli, DIAG_OUT_OF_MEMORY, r->outputs[0].path, NULL, "not enough memory for the picture");
         return CLI_SCENE;
     }
-    if (!bands_take(&run->bands, 0, region->height, r->job.image.rgb))
+    if (!bands_take(&run->work.bands, 0, region->height, r->job.image.rgb))
         return cannot_read(run);
     return render_write_pictures(r, run->camera);
 }
@@ -109,7 +109,7 @@ int render_judge_partial(struct rendering *r, uint32_t camera) {
 
 int bands_write_partial(struct bands_run *run) {
     struct rendering *r = run->r;
-    const struct bands *bands = &run->bands;
+    const struct bands *bands = &run->work.bands;
     int status = CLI_OK;
     struct image_text text = {"Partial", arena_format(&r->cli->arena, "%u of %u bands, the others are black",
                                                       bands->done_count, bands->count)

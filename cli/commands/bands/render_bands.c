@@ -1,10 +1,8 @@
 // A picture in bands: each is on the disk when the next one begins, so that a process needs memory for one,
 // and another can go on.
-#include "cli/commands/bands/band_devices.h"
+#include "cli/commands/bands/bands_run.h"
 #include "cli/device.h"
-#include "core/clock.h"
 #include "core/ranges.h"
-#include "core/timeline.h"
 #include "grammar/ir.h"
 #include "picture/write/rows.h"
 
@@ -142,7 +140,7 @@ static int refuse(struct bands_run *run, const char *words) {
 static int begin_anew(struct bands_run *run, struct strbuf *error) {
     struct rendering *r = run->r;
     strbuf_clear(error);
-    run->is_open = bands_create(&run->bands, run->path, &r->job.part, job_band_rows(&r->job), error);
+    run->is_open = bands_create(&run->work.bands, run->path, &r->job.part, job_band_rows(&r->job), error);
     if (run->is_open)
         return CLI_OK;
     cli_error(r->cli, error->len ? DIAG_OUTPUT : DIAG_OUT_OF_MEMORY, run->path, NULL, "%s",
@@ -154,21 +152,22 @@ static int begin_anew(struct bands_run *run, struct strbuf *error) {
 static int go_on(struct bands_run *run, struct strbuf *error) {
     struct rendering *r = run->r;
     bool missing;
-    run->is_open = bands_open(&run->bands, run->path, goes_on, run, &missing, error);
+    run->is_open = bands_open(&run->work.bands, run->path, goes_on, run, &missing, error);
     if (missing)
         return begin_anew(run, error);
     if (!run->is_open)
         return refuse(run, error->len ? error->data : "needs more memory than there is");
     if (!r->cli->options.part.resume)
         return refuse(run, "is there: a run before this one has left it");
-    const char *words = bands_difference(&run->bands, &r->job.part);
+    const char *words = bands_difference(&run->work.bands, &r->job.part);
     if (words)
         return refuse(run, arena_format(&r->cli->arena, "%s this one", words).ptr);
-    if (!run->bands.is_judged)
+    if (!run->work.bands.is_judged)
         return CLI_STOPPED;
-    run->found = run->bands.done_count;
+    run->found = run->work.bands.done_count;
     if (!r->cli->options.quiet)
-        fprintf(stderr, "glint: %u of %u bands are in %s already\n", run->found, run->bands.count, run->path);
+        fprintf(stderr, "glint: %u of %u bands are in %s already\n", run->found, run->work.bands.count,
+                run->path);
     return CLI_OK;
 }
 
@@ -186,93 +185,57 @@ static int open_checkpoint(struct bands_run *run) {
 
 // ---- bands
 
-// What was wrong, added to what was wrong in bands above.
-static void add_faults(const struct bands_faults *in, struct render_fault *faults) {
-    for (int kind = 1; kind < RENDER_FAULT_KINDS; kind++) {
-        const uint32_t *words = in->words[kind - 1], before = faults[kind].pixels;
-        if (words[0] && before == 0)
-            faults[kind] = (struct render_fault){.x = words[1],
-                                                 .y = words[2],
-                                                 .has_body = words[3] != 0,
-                                                 .body = words[4],
-                                                 .triangle = words[5],
-                                                 .is_nested = words[6] != 0};
-        faults[kind].pixels = before + words[0];
-    }
-}
-
 static int cannot_write(struct bands_run *run) {
     cli_error(run->r->cli, DIAG_OUTPUT, run->path,
               "a picture in bands needs 12 bytes of disk for each pixel while it is rendered",
-              "cannot be written: %s", strerror(run->bands.spool.error));
+              "cannot be written: %s", strerror(run->work.bands.spool.error));
     return CLI_FILE;
 }
 
-static int take_band(struct bands_run *run, uint32_t band) {
-    struct rendering *r = run->r;
-    struct shot *shot = r->job.shot;
-    const struct render_progress progress = progress_callback(&r->progress);
-    struct render_statistics made;
-    bands_aim(run, band, &shot->settings);
-    if (!renderer_change(shot->renderer, &shot->flat, &shot->settings))
-        return render_failed(r, SHOT_DEVICE);
-    const enum shot_status status = shot_take_silently(shot, &run->band, &progress, &made);
-    if (status == SHOT_CANCELLED)
-        return CLI_STOPPED;
-    if (status != SHOT_OK)
-        return render_failed(r, status);
-    return bands_keep(run, band, run->band.rgb, &shot->settings, &made) ? CLI_OK : CLI_FILE;
-}
-
-static void give_up(struct bands_run *run) {
-    parallel_lock_take(&run->lock);
-    run->gives_up = true;
-    parallel_lock_give(&run->lock);
+// What became of the devices.
+static int judge_devices(struct bands_run *run, enum shot_status taken) {
+    const struct gpu *failed = job_bands_failed(&run->work);
+    const int status = taken == SHOT_DEVICE      ? render_failed(run->r, taken)
+                       : taken == SHOT_CANCELLED ? CLI_STOPPED
+                                                 : CLI_OK;
+    if (!failed)
+        return status;
+    cli_device_failed(run->r->cli, failed);
+    return status == CLI_OK ? CLI_DEVICE : status;
 }
 
 static int take_bands(struct bands_run *run) {
     struct rendering *r = run->r;
-    struct bands *bands = &run->bands;
-    struct band_devices *devices;
-    int status;
-    if (!image_init(&run->band, bands->part.region.width, bands->rows)) {
+    struct job_bands *work = &run->work;
+    const struct render_progress progress = progress_callback(&r->progress);
+    if (!job_bands_begin(work)) {
         cli_error(r->cli, DIAG_OUT_OF_MEMORY, run->path, NULL, "not enough memory for a band");
         return CLI_SCENE;
     }
-    status = bands_begin_devices(run, &devices);
-    for (uint32_t band; status == CLI_OK && (band = bands_claim(run)) < bands->count;) {
-        r->progress.base = (double)bands->done_count / bands->count;
-        r->progress.share = 1.0 / bands->count;
-        status = take_band(run, band);
-    }
-    if (status != CLI_OK)
-        give_up(run);
-    const int others = bands_end_devices(run, devices);
-    status = status == CLI_OK ? others : status;
-    if (bands->spool.error)
+    const int begun = bands_begin_devices(run);
+    if (begun != CLI_OK)
+        job_bands_give_up(work);
+    const int taken = judge_devices(run, job_bands_take(work, &progress));
+    for (uint32_t i = 0; i < run->gpu_count; i++)
+        cli_close_device(r->cli, run->gpus[i]);
+    if (work->bands.spool.error)
         return cannot_write(run);
-    return status == CLI_OK && bands->done_count < bands->count ? CLI_STOPPED : status;
-}
-
-static void report_faults(struct bands_run *run) {
-    struct render_fault faults[RENDER_FAULT_KINDS] = {0};
-    for (uint32_t i = 0; i < run->bands.count; i++)
-        add_faults(&run->bands.faults[i], faults);
-    shot_report_faults(run->r->job.shot, faults);
+    const int status = begun != CLI_OK ? begun : taken;
+    return status == CLI_OK && work->bands.done_count < work->bands.count ? CLI_STOPPED : status;
 }
 
 // ---- the end
 
 static int stop(struct bands_run *run) {
     struct rendering *r = run->r;
-    const struct bands *bands = &run->bands;
+    struct bands *bands = &run->work.bands;
     progress_end(&r->progress);
     if (!bands->is_judged) {
         fprintf(stderr, "glint: stopped: %s is as it was; the same command with --resume goes on\n",
                 run->path);
         return CLI_STOPPED;
     }
-    if (!spool_settle(&run->bands.spool))
+    if (!spool_settle(&bands->spool))
         return cannot_write(run);
     if (r->cli->options.part.partial && bands->done_count) {
         const int status = bands_write_partial(run);
@@ -284,40 +247,31 @@ static int stop(struct bands_run *run) {
     return CLI_STOPPED;
 }
 
-static void note_statistics(struct bands_run *run, double seconds) {
-    struct stats *s = &run->r->job.stats;
-    s->last = run->all;
-    s->frames = 1;
-    s->first_frame_seconds = s->least_frame_seconds = s->most_frame_seconds = s->median_frame_seconds =
-        seconds;
-    s->median_device_seconds = run->all.device_seconds;
-    run->r->job.shot->settings.height = run->bands.part.region.height;
+static bool is_stopped(void) {
+    return interrupt_signal() != 0;
 }
 
 int render_in_bands(struct rendering *r, uint32_t camera) {
-    struct bands_run run = {.r = r, .camera = camera};
-    parallel_lock_begin(&run.lock);
+    struct bands_run *run = ARENA_NEW(&r->cli->arena, struct bands_run);
+    struct bands *bands = &run->work.bands;
+    *run = (struct bands_run){.r = r, .camera = camera, .work = {.job = &r->job, .is_stopped = is_stopped}};
     r->progress.patience = PROGRESS_PATIENCE;
-    int status = open_checkpoint(&run);
-    const double start = clock_seconds();
+    int status = open_checkpoint(run);
     if (status == CLI_OK)
-        status = take_bands(&run);
-    timeline_add(r->job.wish.timeline, "bands", STR(""), start);
-    note_statistics(&run, clock_seconds() - start);
+        status = take_bands(run);
     if (status == CLI_OK) {
         progress_end(&r->progress);
-        status = bands_write(&run);
+        status = bands_write(run);
     }
     if (status == CLI_OK)
-        report_faults(&run);
+        job_bands_report_faults(&run->work);
     if (status == CLI_STOPPED)
-        status = stop(&run);
-    const bool is_empty = run.is_open && run.bands.done_count == 0 && run.bands.is_judged;
-    if (run.is_open && (status == CLI_OK || (is_empty && status != CLI_STOPPED && status != CLI_USAGE)))
-        bands_remove(&run.bands);
-    else if (run.is_open)
-        bands_finish(&run.bands);
-    image_finish(&run.band);
-    parallel_lock_end(&run.lock);
+        status = stop(run);
+    const bool is_empty = run->is_open && bands->done_count == 0 && bands->is_judged;
+    if (run->is_open && (status == CLI_OK || (is_empty && status != CLI_STOPPED && status != CLI_USAGE)))
+        bands_remove(bands);
+    else if (run->is_open)
+        bands_finish(bands);
+    job_bands_finish(&run->work);
     return status;
 }
