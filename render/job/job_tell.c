@@ -22,7 +22,8 @@ struct provenance job_provenance(const struct job *job, enum image_format format
     return (struct provenance){.session = job->session,
                                .gpu = job->wish.by_reference ? NULL : job->gpu,
                                .camera = job->camera,
-                               .is_double = job->wish.by_reference || job->shot->flat.is_double,
+                               .is_double =
+                                   job->wish.by_reference || (job->shot && job->shot->flat.is_double),
                                .as_file = job->wish.as_file,
                                .audits = job->stats.has_audit,
                                .max_off = job->wish.max_off,

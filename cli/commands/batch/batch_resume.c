@@ -66,7 +66,7 @@ static void put_head(const struct batch_run *run, struct strbuf *out) {
     uint64_t key[2];
     hash128_begin(&h);
     hash128_text(&h, STR(GLINT_VERSION));
-    hash128_text(&h, str_from(gpu_info(run->gpu)->name));
+    hash128_text(&h, str_from(gpu_info(run->outputs.job.gpu)->name));
     hash_options(&run->cli->options, &h);
     for (uint32_t i = 0; i < run->batch.jobs.count; i++)
         hash_job(run, &run->batch.jobs.items[i], &h);

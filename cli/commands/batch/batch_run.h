@@ -56,7 +56,6 @@ struct batch_run {
     struct batch batch;
     struct rendering outputs; // what the command line says of them
     struct live live;
-    struct gpu *gpu;
     struct batch_checkpoint checkpoint;
     struct film film;
     struct image sheet;

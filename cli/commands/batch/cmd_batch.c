@@ -4,7 +4,6 @@
 // the next scene is read and the last picture encoded, each on one more thread.
 #include "cli/commands/batch/batch_run.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/pictures/done.h"
 #include "cli/device.h"
 #include "cli/made.h"
 #include "core/clock.h"
@@ -221,11 +220,10 @@ static bool is_done(struct batch_run *run, const struct batch_job *job) {
         return false;
     if (plan_part(run, job, session) != CLI_OK)
         return false;
-    const struct done_wish wish = {session, run->gpu, camera_of(session, job->camera),
-                                   &run->outputs.job.part};
+    run->outputs.job.camera = camera_of(session, job->camera);
     bool done = true;
     for (uint32_t i = 0; i < run->outputs.output_count && done; i++)
-        done = done_is_there(run->cli, &run->outputs.outputs[i], job->paths[i], &wish);
+        done = render_output_is_done(&run->outputs, &run->outputs.outputs[i], job->paths[i]);
     run->counts.skipped += done;
     return done;
 }
@@ -251,7 +249,7 @@ static int trace(struct batch_run *run, const struct batch_job *job, struct batc
     job_follow(drawn, &run->live);
     if (status == CLI_OK && job_aim(drawn) != SHOT_OK) {
         progress_end(&run->progress);
-        return cli_device_failed(run->cli, run->gpu);
+        return cli_device_failed(run->cli, run->outputs.job.gpu);
     }
     if (status == CLI_OK)
         status = fit_image(run, &made->image, &drawn->shot->settings);
@@ -265,7 +263,7 @@ static int trace(struct batch_run *run, const struct batch_job *job, struct batc
         return CLI_INTERRUPTED;
     if (taken != SHOT_OK) {
         progress_end(&run->progress);
-        return taken == SHOT_DEVICE ? cli_device_failed(run->cli, run->gpu) : CLI_SCENE;
+        return taken == SHOT_DEVICE ? cli_device_failed(run->cli, run->outputs.job.gpu) : CLI_SCENE;
     }
     made->job = job;
     made->display = job_display(drawn);
@@ -292,7 +290,7 @@ static int render_one(struct batch_run *run, uint32_t number, struct batch_made 
         return CLI_OK;
     if (state == LIVE_FAILED) {
         progress_end(&run->progress);
-        return cli_device_failed(run->cli, run->gpu);
+        return cli_device_failed(run->cli, run->outputs.job.gpu);
     }
     const int status = state == LIVE_SHOWN ? trace(run, job, made) : broken_status(run);
     tell_findings(run, job, status != CLI_OK);
@@ -367,13 +365,13 @@ static int finish(struct batch_run *run, int status) {
 static int run_batch(struct batch_run *run) {
     struct cli *cli = run->cli;
     const double start = clock_seconds();
-    int status = cli_open_device(cli, &run->gpu);
+    int status = cli_open_device(cli, &run->outputs.job.gpu);
     run->counts.device_seconds = clock_seconds() - start;
     const struct live_wish wish = {.session = cli_session_options(cli, run->batch.jobs.items[0].scene),
                                    .alone = true};
     if (status == CLI_OK)
         status = batch_resume(run);
-    if (status == CLI_OK && !live_begin(&run->live, &wish, run->gpu)) {
+    if (status == CLI_OK && !live_begin(&run->live, &wish, run->outputs.job.gpu)) {
         cli_error(cli, DIAG_OUT_OF_MEMORY, run->batch.jobs.items[0].scene, NULL, "not enough memory");
         status = CLI_FILE;
     }
@@ -396,7 +394,7 @@ static int run_batch(struct batch_run *run) {
     batch_end_resume(run, status == CLI_OK);
     live_finish(&run->live);
     image_finish(&run->sheet);
-    cli_close_device(cli, run->gpu);
+    cli_close_device(cli, run->outputs.job.gpu);
     return status;
 }
 

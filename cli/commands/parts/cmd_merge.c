@@ -1,12 +1,12 @@
 // glint merge OUT PART...: parts of a picture, to the picture.
 #include "cli/commands/commands.h"
 #include "cli/commands/parts/merge_rows.h"
-#include "cli/commands/pictures/done.h"
 #include "cli/commands/rendering.h"
 #include "cli/made.h"
 #include "cli/progress.h"
 #include "core/ranges.h"
 #include "render/frames/frame_name.h"
+#include "render/job/job_done.h"
 #include "render/parts/parts.h"
 #include "render/record/provenance.h"
 
@@ -111,7 +111,7 @@ static bool is_done(struct rendering *r) {
         return false;
     const struct image_texts texts = provenance_of_line(
         r->record, output->format, render_coding(&cli->options, output->format), &cli->arena);
-    const bool done = done_picture(cli, output->path, &texts);
+    const bool done = job_texts_are_done(output->path, &texts, &cli->arena);
     if (done && !cli->options.quiet)
         fprintf(stderr, "glint: %s is done already\n", output->path);
     return done;
