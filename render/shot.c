@@ -226,16 +226,15 @@ enum shot_status shot_count(struct shot *shot, const struct render_progress *pro
     if (settings.samples != shot->settings.samples &&
         !renderer_change(shot->renderer, &shot->flat, &shot->settings))
         return SHOT_DEVICE;
-    return result == RENDER_DONE ? SHOT_OK : result == RENDER_CANCELLED ? SHOT_CANCELLED : SHOT_DEVICE;
+    return shot_status_of(result);
 }
 
 static enum shot_status take(struct shot *shot, struct image *image, const struct render_progress *progress,
                              const struct render_limit *limit, struct render_statistics *statistics) {
     if (!CLI_HAS_DEVICES)
         return SHOT_DEVICE;
-    const enum render_result result =
-        renderer_render_until(shot->renderer, &shot->view.camera, image->rgb, progress, limit, statistics);
-    return result == RENDER_DONE ? SHOT_OK : result == RENDER_CANCELLED ? SHOT_CANCELLED : SHOT_DEVICE;
+    return shot_status_of(
+        renderer_render_until(shot->renderer, &shot->view.camera, image->rgb, progress, limit, statistics));
 }
 
 enum shot_status shot_take_silently(struct shot *shot, struct image *image,

@@ -58,6 +58,10 @@ enum shot_status shot_open(struct shot *shot, struct session *session, struct gp
 enum shot_status shot_open_for(struct shot *shot, struct session *session, struct gpu *gpu, uint32_t camera,
                                struct shot_wish wish);
 void shot_close(struct shot *shot);
+// The status of what a renderer has done.
+static inline enum shot_status shot_status_of(enum render_result result) {
+    return result == RENDER_DONE ? SHOT_OK : result == RENDER_CANCELLED ? SHOT_CANCELLED : SHOT_DEVICE;
+}
 // Whether all pixels of the region, or of the picture, can be held at once. false: an error in the sink.
 bool shot_fits(struct session *session, const struct shot_region *region);
 // What the session asks for: the settings and how its picture is displayed, for the flat scene as it is.

@@ -10,6 +10,13 @@ bool image_init(struct image *image, uint32_t width, uint32_t height) {
     return image->rgb != NULL;
 }
 
+bool image_fit(struct image *image, uint32_t width, uint32_t height) {
+    if (image->rgb && image->width == width && image->height == height)
+        return true;
+    image_finish(image);
+    return image_init(image, width, height);
+}
+
 void image_finish(struct image *image) {
     if (!image)
         return;

@@ -67,6 +67,9 @@ struct image_display {
 
 // Black; false: no memory. width and height are at least 1.
 bool image_init(struct image *image, uint32_t width, uint32_t height);
+// The same of one that was there, which is kept where it has this size already; its pixels are not black
+// then.
+bool image_fit(struct image *image, uint32_t width, uint32_t height);
 void image_finish(struct image *image);
 
 // Whether a pixel's three channels mark a fault: one of them is not a number.

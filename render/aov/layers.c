@@ -54,10 +54,6 @@ static void add_pixel(struct layers *l, size_t pixel, const struct hit_pixel *hi
             matte_add(&l->mattes[m], pixel, bits_of(l, m, hit));
 }
 
-static enum shot_status of_result(enum render_result result) {
-    return result == RENDER_DONE ? SHOT_OK : result == RENDER_CANCELLED ? SHOT_CANCELLED : SHOT_DEVICE;
-}
-
 static enum shot_status hits_by_device(struct layers *l, const struct render_progress *bar) {
     const size_t pixels = (size_t)l->planes.width * l->planes.height;
     const struct view_camera *camera = &l->wish.shot->view.camera;
@@ -68,14 +64,14 @@ static enum shot_status hits_by_device(struct layers *l, const struct render_pro
     if (result == RENDER_DONE)
         aov_fill(&l->planes, &l->session->resolved, camera, l->hits);
     if (!makes_mattes(l))
-        return of_result(result);
+        return shot_status_of(result);
     for (uint32_t s = 0; s < coverage_samples(l) && result == RENDER_DONE; s++) {
         if (s)
             result = renderer_first_hits(l->wish.shot->renderer, camera, s, l->hits, &progress);
         for (size_t i = 0; i < pixels && result == RENDER_DONE; i++)
             add_pixel(l, i, &l->hits[i]);
     }
-    return of_result(result);
+    return shot_status_of(result);
 }
 
 struct covering {

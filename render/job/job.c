@@ -147,3 +147,12 @@ enum shot_status job_frame(struct job *job, struct image *image, const struct re
                ? take_samples(job, image, progress)
                : shot_take(job->shot, image, progress, &job->stats.last);
 }
+
+static bool report_share(void *context, double fraction) {
+    const struct job_share *share = context;
+    return share->all->report(share->all->context, (share->done + fraction) / share->count);
+}
+
+struct render_progress job_share_progress(struct job_share *share) {
+    return (struct render_progress){report_share, share};
+}

@@ -83,6 +83,12 @@ void job_drop_layers(struct job *job);
 enum shot_status job_aim(struct job *job);
 // One frame, into an image of the part's size; its statistics are in stats.last.
 enum shot_status job_frame(struct job *job, struct image *image, const struct render_progress *progress);
+// How far all of some frames, or bands, are, where `done` are and one is under way.
+struct job_share {
+    const struct render_progress *all;
+    uint32_t done, count;
+};
+struct render_progress job_share_progress(struct job_share *share);
 // Rows of a band of the picture.
 uint32_t job_band_rows(const struct job *job);
 

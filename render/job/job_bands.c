@@ -113,11 +113,9 @@ static enum shot_status take_beside(struct job_band_device *d, uint32_t band) {
     if (d->renderer ? !renderer_change(d->renderer, &shot->flat, &d->settings)
                     : !(d->renderer = renderer_create(d->gpu, &shot->flat, &d->settings)))
         return SHOT_DEVICE;
-    const enum render_result result =
-        renderer_render(d->renderer, &shot->view.camera, d->band.rgb, &d->progress, &made);
-    if (result != RENDER_DONE)
-        return result == RENDER_CANCELLED ? SHOT_CANCELLED : SHOT_DEVICE;
-    return keep(run, band, d->band.rgb, &d->settings, &made);
+    const enum shot_status status =
+        shot_status_of(renderer_render(d->renderer, &shot->view.camera, d->band.rgb, &d->progress, &made));
+    return status == SHOT_OK ? keep(run, band, d->band.rgb, &d->settings, &made) : status;
 }
 
 static void work(void *context) {
@@ -156,21 +154,10 @@ bool job_bands_begin(struct job_bands *run) {
     return image_init(&run->band, run->bands.part.region.width, run->bands.rows);
 }
 
-// How far all bands are, by one of them.
-struct band_progress {
-    const struct render_progress *progress;
-    uint32_t done, count;
-};
-
-static bool report(void *context, double fraction) {
-    const struct band_progress *b = context;
-    return b->progress->report(b->progress->context, (b->done + fraction) / b->count);
-}
-
 static enum shot_status take(struct job_bands *run, uint32_t band, const struct render_progress *progress) {
     struct shot *shot = run->job->shot;
-    struct band_progress one = {progress, run->bands.done_count, run->bands.count};
-    const struct render_progress of_band = {report, &one};
+    struct job_share one = {progress, run->bands.done_count, run->bands.count};
+    const struct render_progress of_band = job_share_progress(&one);
     struct render_statistics made;
     aim(run, band, &shot->settings);
     if (!renderer_change(shot->renderer, &shot->flat, &shot->settings))

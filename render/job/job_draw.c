@@ -108,17 +108,6 @@ static enum shot_status take_in_time(struct job *job, uint32_t pictures,
 
 // ---- frames
 
-// One of some.
-struct frame_progress {
-    const struct render_progress *progress;
-    int32_t frame, frames;
-};
-
-static bool report_frame(void *context, double fraction) {
-    const struct frame_progress *f = context;
-    return f->progress->report(f->progress->context, (f->frame + fraction) / f->frames);
-}
-
 static void note_frames(struct stats *stats, double *times, double *on_device, int32_t frames) {
     quantile_sort(times, (size_t)frames);
     quantile_sort(on_device, (size_t)frames);
@@ -130,15 +119,16 @@ static void note_frames(struct stats *stats, double *times, double *on_device, i
 }
 
 enum shot_status job_draw(struct job *job, uint32_t pictures, const struct render_progress *progress) {
-    struct frame_progress one = {progress, 0, job->wish.frames ? job->wish.frames : 1};
-    const struct render_progress of_frame = {report_frame, &one};
-    double *times = ARENA_ARRAY(job->arena, double, (size_t)one.frames);
-    double *on_device = ARENA_ARRAY(job->arena, double, (size_t)one.frames);
+    int32_t frames = job->wish.frames ? job->wish.frames : 1;
+    struct job_share one = {progress, 0, (uint32_t)frames};
+    const struct render_progress of_frame = job_share_progress(&one);
+    double *times = ARENA_ARRAY(job->arena, double, (size_t)frames);
+    double *on_device = ARENA_ARRAY(job->arena, double, (size_t)frames);
     const bool in_time = job->wish.time.seconds > 0;
-    for (int32_t i = 0; i < one.frames; i++) {
+    for (int32_t i = 0; i < frames; i++) {
         const double start = clock_seconds();
         const uint32_t errors = job->session->sink.errors;
-        one.frame = i;
+        one.done = (uint32_t)i;
         const enum shot_status status =
             in_time ? take_in_time(job, pictures, &of_frame) : job_frame(job, &job->image, &of_frame);
         times[i] = clock_seconds() - start;
@@ -149,9 +139,9 @@ enum shot_status job_draw(struct job *job, uint32_t pictures, const struct rende
         if (i == 0)
             job->stats.first_frame_seconds = times[i];
         if (job->session->sink.errors > errors)
-            one.frames = i + 1; // a faulty picture: more frames would show the same
+            frames = i + 1; // a faulty picture: more frames would show the same
     }
-    note_frames(&job->stats, times, on_device, one.frames);
+    note_frames(&job->stats, times, on_device, frames);
     return SHOT_OK;
 }
 

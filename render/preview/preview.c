@@ -172,7 +172,7 @@ static enum shot_status draw_by_device(struct preview *p, void *context, struct 
     const enum render_result result = renderer_render_until(shot->renderer, &shot->view.camera, d->image.rgb,
                                                             &progress, &limit, &statistics);
     d->samples = statistics.samples;
-    return result == RENDER_DONE ? SHOT_OK : result == RENDER_CANCELLED ? SHOT_CANCELLED : SHOT_DEVICE;
+    return shot_status_of(result);
 }
 
 static enum preview_state take_by_device(struct preview *p, const struct preview_wish *wish,

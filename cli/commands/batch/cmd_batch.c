@@ -230,12 +230,8 @@ static bool is_done(struct batch_run *run, const struct batch_job *job) {
 
 static int fit_image(struct batch_run *run, struct image *image, const struct render_settings *settings) {
     const int status = run->batch.film ? CLI_OK : render_judge_size(&run->outputs);
-    if (status != CLI_OK ||
-        (image->rgb && image->width == settings->width && image->height == settings->height))
+    if (status != CLI_OK || image_fit(image, settings->width, settings->height))
         return status;
-    image_finish(image);
-    if (image_init(image, settings->width, settings->height))
-        return CLI_OK;
     cli_error(run->cli, DIAG_OUT_OF_MEMORY, run->outputs.outputs[0].path, NULL,
               "not enough memory for the picture");
     return CLI_FILE;

@@ -78,14 +78,6 @@ static bool goes_on(void *context, double fraction) {
     return shown.report(shown.context, fraction) && !w->is_stale;
 }
 
-static bool fit_image(struct watching *w) {
-    const struct render_settings *settings = &w->live.shot.settings;
-    if (w->image.rgb && w->image.width == settings->width && w->image.height == settings->height)
-        return true;
-    image_finish(&w->image);
-    return image_init(&w->image, settings->width, settings->height);
-}
-
 static int encode_and_write(struct watching *w, double *encode_seconds) {
     struct strbuf file;
     strbuf_init(&file);
@@ -141,10 +133,11 @@ static int tell(struct watching *w, const struct live_report *report) {
 }
 
 static int show_picture(struct watching *w) {
+    const struct render_settings *settings = &w->live.shot.settings;
     const struct render_statistics *frame = &w->job.stats.last;
     const struct render_progress progress = {goes_on, w};
     const bool quiet = w->cli->options.quiet;
-    if (!fit_image(w)) {
+    if (!image_fit(&w->image, settings->width, settings->height)) {
         cli_error(w->cli, DIAG_OUT_OF_MEMORY, w->output, NULL, "not enough memory for the picture");
         return CLI_SCENE;
     }

@@ -158,11 +158,7 @@ static struct session *load(struct tester *t, struct test_case *test) {
 // ---- one picture
 
 static int fit_image(struct tester *t, const struct test_case *test, const struct session *session) {
-    const uint32_t width = (uint32_t)session->image->width, height = (uint32_t)session->image->height;
-    if (t->image.rgb && t->image.width == width && t->image.height == height)
-        return CLI_OK;
-    image_finish(&t->image);
-    if (image_init(&t->image, width, height))
+    if (image_fit(&t->image, (uint32_t)session->image->width, (uint32_t)session->image->height))
         return CLI_OK;
     cli_error(t->run->cli, DIAG_OUT_OF_MEMORY, test->scene.ptr, NULL, "not enough memory for the picture");
     return CLI_FILE;
