@@ -186,7 +186,7 @@ static int leave_done(struct rendering *r, uint32_t *first, uint32_t end) {
 // All names that are made of the outputs', through these cameras.
 static int judge_made(struct rendering *r, uint32_t first, uint32_t end) {
     int status = CLI_OK;
-    for (uint32_t k = first; k < end && status == CLI_OK && !r->kept; k++) {
+    for (uint32_t k = first; k < end && status == CLI_OK; k++) {
         for (uint32_t i = 0; i < r->output_count && status == CLI_OK; i++)
             status =
                 cli_judge_made(r->cli, render_typed(&r->outputs[i]), render_output_of(r, &r->outputs[i], k));
@@ -235,7 +235,7 @@ static int run_job(struct rendering *r, struct asset_store *store) {
     const bool device = !r->job.wish.by_reference;
     options.lint = LINT_CHEAP;
     options.error = device ? options.error : -1; // the reference takes all samples
-    options.whole_picture = !device || r->kept;
+    options.whole_picture = !device;
     options.pixels_later = device;
     options.on_text = device && !r->job.gpu ? begin_device : NULL;
     options.on_text_context = r;
@@ -332,7 +332,8 @@ static struct job_wish wish_of(struct rendering *r) {
                              .timeline = o->stats ? ARENA_NEW(&r->cli->arena, struct timeline) : NULL};
 }
 
-int render_whole(struct rendering *r) {
+// From reading the scene to the pictures.
+static int render_whole(struct rendering *r) {
     struct cli *cli = r->cli;
     struct session session = {0};
     interrupt_catch();

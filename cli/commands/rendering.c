@@ -51,18 +51,17 @@ void render_tell_unused_error(const struct rendering *r) {
                 image->min_samples, session->image->samples);
 }
 
-static int tell_audit(const struct rendering *r) {
-    const struct cli_options *options = &r->cli->options;
-    const struct audit *audit = &r->job.stats.audit;
-    if (!r->job.stats.has_audit)
+int render_tell_audit(const struct cli *cli, const struct job *job) {
+    const struct audit *audit = &job->stats.audit;
+    if (!job->stats.has_audit)
         return CLI_OK;
-    const bool broken = options->has_max_off && audit->bound > options->max_off;
-    if (broken || !options->quiet) {
-        fprintf(stderr, "glint: %.*s", STR_ARG(strbuf_view(&r->job.audit_note)));
+    const bool broken = job->wish.max_off >= 0 && audit->bound > job->wish.max_off;
+    if (broken || !cli->options.quiet) {
+        fprintf(stderr, "glint: %.*s", STR_ARG(strbuf_view(&job->audit_note)));
         if (audit->off)
             fprintf(stderr, ", the first at %u,%u", audit->x, audit->y);
         if (broken)
-            fprintf(stderr, "; more than %g %%", 100 * options->max_off);
+            fprintf(stderr, "; more than %g %%", 100 * job->wish.max_off);
         fputc('\n', stderr);
     }
     return broken ? CLI_SCENE : CLI_OK;
@@ -112,7 +111,7 @@ static void tell_left_out(const struct rendering *r) {
 }
 
 int render_tell_end(const struct rendering *r) {
-    int status = tell_audit(r);
+    int status = render_tell_audit(r->cli, &r->job);
     if (status == CLI_OK)
         status = tell_time(r);
     if (status != CLI_OK || r->cli->options.quiet)

@@ -23,11 +23,9 @@ struct rendering {
     struct cli_output *outputs; // at least one; their paths are without the camera's name
     uint32_t output_count;
     bool all_cameras;
-    struct image_display display; // of the last picture that was encoded
-    struct strbuf *kept;          // for who wants the picture's file, and none written; NULL: the outputs are
-    double written;               // clock: when the last picture was
-    bool *done;                   // by camera: --skip-done found it; NULL: not asked
-    const char *record;           // of the picture that parts make (part_file.h); NULL: there are none
+    double written;     // clock: when the last picture was
+    bool *done;         // by camera: --skip-done found it; NULL: not asked
+    const char *record; // of the picture that parts make (part_file.h); NULL: there are none
 };
 
 // Where a camera's picture goes: the path of one of the outputs.
@@ -60,6 +58,8 @@ int render_failed(struct rendering *r, enum shot_status status);
 // After a camera's picture was written: what its audit found, what --time left out, how long frames took. An
 // exit code: an audit that breaks --max-off is a failure, and fewer samples than --max-error asks for.
 int render_tell_end(const struct rendering *r);
+// The first of that, of any job.
+int render_tell_audit(const struct cli *cli, const struct job *job);
 // Says that the scene's image.error ended no pixel, and why; nothing where a finding says so.
 void render_tell_unused_error(const struct rendering *r);
 
@@ -106,9 +106,5 @@ bool render_output_is_done(const struct rendering *r, const struct cli_output *o
 // Finds the cameras whose outputs are all there, says so, and moves `first`
 // past those at the beginning. The session is settled, and the device open.
 void render_find_done(struct rendering *r, uint32_t *first, uint32_t end);
-
-// cmd_render.c: a job with its outputs, from reading the scene to the pictures; frees what it took, the
-// session included. Returns an exit code.
-int render_whole(struct rendering *r);
 
 #endif

@@ -168,7 +168,6 @@ static int write_made(struct rendering *r, const char *path, const struct strbuf
 void render_encode(struct rendering *r, enum image_format format, struct strbuf *out) {
     struct job *job = &r->job;
     const struct image_coding coding = render_coding(&r->cli->options, format);
-    r->display = job_display(job);
     job->image.coding = coding;
     job->image.texts = (struct image_texts){0};
     if (r->record)
@@ -178,7 +177,7 @@ void render_encode(struct rendering *r, enum image_format format, struct strbuf 
         const struct provenance made = job_provenance(job, format, coding);
         job->image.texts = provenance_texts(&made, job->arena);
     }
-    image_encode(&job->image, format, r->display, out);
+    image_encode(&job->image, format, job_display(job), out);
 }
 
 static int write_picture(struct rendering *r, const struct cli_output *output, const char *path) {
@@ -188,10 +187,10 @@ static int write_picture(struct rendering *r, const struct cli_output *output, c
     if (output->is_part)
         render_encode_part(r, &file);
     else
-        render_encode(r, output->format, r->kept ? r->kept : &file);
+        render_encode(r, output->format, &file);
     r->job.stats.encode_seconds += clock_seconds() - start;
     timeline_add(r->job.wish.timeline, "encode", str_from(path), start);
-    const int status = r->kept ? CLI_OK : write_made(r, path, &file);
+    const int status = write_made(r, path, &file);
     strbuf_finish(&file);
     return status;
 }

@@ -103,40 +103,43 @@ static const char *device_of(struct verify *v) {
 
 static void take_settings(struct verify *v) {
     struct cli_options *o = &v->cli->options;
-    const struct record_command *c = &v->command;
-    o->width = c->width;
-    o->height = c->height;
-    o->samples = c->samples;
-    o->camera = c->camera;
-    o->sets.items = (str *)c->sets;
-    o->sets.count = o->sets.capacity = c->set_count;
+    const struct image_coding *coding = &v->command.coding;
     add_paths(v);
-    o->measure.noise = c->noise;
-    o->audit = c->audit;
-    o->has_max_off = c->max_off >= 0;
-    o->max_off = c->max_off;
-    o->as_file = c->as_file;
-    o->depth = (int32_t)c->coding.bits;
-    o->quality = (int32_t)c->coding.quality;
-    o->compression = (int)c->coding.compression;
+    o->depth = (int32_t)coding->bits;
+    o->quality = (int32_t)coding->quality;
+    o->compression = (int)coding->compression;
     o->device = device_of(v);
     o->quiet = true;
-    int32_t width, height;
-    if (number_parse_size(v->was.fields[RECORD_SCALED], "x", INT32_MAX, &width, &height)) {
-        o->measure.scale_width = (uint32_t)width;
-        o->measure.scale_height = (uint32_t)height;
-    }
+}
+
+static struct session_options scene_options(const struct verify *v) {
+    const struct record_command *c = &v->command;
+    struct session_options options = cli_session_options(v->cli, v->scene);
+    options.sets = c->sets;
+    options.set_count = c->set_count;
+    options.width = c->width;
+    options.height = c->height;
+    options.samples = c->samples;
+    options.error = cli_device_is_reference(v->cli) ? -1 : c->noise; // the reference takes all samples
+    options.lint = LINT_CHEAP;
+    options.whole_picture = true;
+    return options;
+}
+
+static struct job_wish job_wish(const struct verify *v) {
+    const struct record_command *c = &v->command;
+    const bool by_reference = cli_device_is_reference(v->cli);
+    return (struct job_wish){.by_reference = by_reference,
+                             .as_file = c->as_file,
+                             .no_cache = v->cli->options.no_cache,
+                             .audits = (c->audit || c->max_off >= 0) && !by_reference,
+                             .max_off = c->max_off};
 }
 
 // ---- the scene, before anything is rendered
 
-static int load_scene(struct verify *v) {
+static int judge_scene(struct verify *v, struct session *session) {
     struct cli *cli = v->cli;
-    struct session *session = ARENA_NEW(&cli->arena, struct session);
-    struct session_options options = cli_session_options(cli, v->scene);
-    struct asset_store *store = asset_store_create();
-    options.lint = LINT_CHEAP;
-    session_load(session, &options, store);
     const bool good = session->state == SESSION_LOADED && session->sink.errors == 0;
     const int status = good ? CLI_OK : cli_report(cli, session, false);
     if (good)
@@ -152,10 +155,101 @@ static int load_scene(struct verify *v) {
                 "glint: that is the scene that the picture names; if it is elsewhere now: glint verify %s "
                 "SCENE\n",
                 v->path);
-    session_finish(session);
-    asset_store_destroy(store);
     if (good && !str_equal_cstr(v->was.fields[RECORD_SCENE], v->scene_hash))
         fprintf(stderr, "glint: %s was changed since the picture was made, or is another scene\n", v->scene);
+    return status;
+}
+
+// ---- the picture again
+
+static int no_memory_for_picture(struct verify *v) {
+    cli_error(v->cli, DIAG_OUT_OF_MEMORY, "-", NULL, "not enough memory for the picture");
+    return CLI_SCENE;
+}
+
+// To the size that the picture had, if it was scaled up.
+static int scale(struct verify *v, struct job *job) {
+    int32_t width, height;
+    const bool is_scaled = number_parse_size(v->was.fields[RECORD_SCALED], "x", INT32_MAX, &width, &height);
+    return !is_scaled || job_scale_up(job, (uint32_t)width, (uint32_t)height) ? CLI_OK
+                                                                              : no_memory_for_picture(v);
+}
+
+static int failed(struct verify *v, struct job *job, enum shot_status status) {
+    if (status == SHOT_SCENE)
+        return cli_report(v->cli, job->session, false);
+    return status == SHOT_CANCELLED ? cli_interrupted(v->cli) : cli_device_failed(v->cli, job->gpu);
+}
+
+static enum image_format format_of(const struct verify *v) {
+    for (int format = 0; format < IMAGE_FORMATS; format++)
+        if (strcmp(image_format_info((enum image_format)format)->name, v->pictures[0].kind) == 0)
+            return (enum image_format)format;
+    return IMAGE_PNG;
+}
+
+static void encode(struct verify *v, struct job *job) {
+    const enum image_format format = format_of(v);
+    job->image.coding = render_coding(&v->cli->options, format);
+    const struct provenance made = job_provenance(job, format, job->image.coding);
+    job->image.texts = provenance_texts(&made, job->arena);
+    image_encode(&job->image, format, v->display, &v->made);
+}
+
+// One with faulty pixels is a picture, and its errors are reported.
+static int draw(struct verify *v, struct job *job) {
+    struct progress progress;
+    const struct render_progress callback = progress_callback(&progress);
+    progress_begin(&progress, true);
+    enum shot_status status = job_draw(job, 1, &callback);
+    if (status == SHOT_OK) {
+        job_state_estimate(job);
+        status = job_audit(job, &callback);
+    }
+    if (status != SHOT_OK)
+        return failed(v, job, status);
+    const int scaled = scale(v, job);
+    if (scaled != CLI_OK)
+        return scaled;
+    encode(v, job);
+    render_tell_audit(v->cli, job);
+    cli_report(v->cli, job->session, false);
+    return CLI_OK;
+}
+
+static int make_picture(struct verify *v, struct job *job) {
+    struct cli *cli = v->cli;
+    const struct ir_image *image = job->session->image;
+    const uint32_t camera = session_camera(job->session, v->command.camera);
+    int status = CLI_OK;
+    if (camera == IR_NO_INDEX)
+        return cli_report(cli, job->session, false);
+    if (!image_init(&job->image, (uint32_t)image->width, (uint32_t)image->height))
+        return no_memory_for_picture(v);
+    v->display = job_display(job);
+    cli->operands[0] = (char *)v->scene;
+    if (!job->wish.by_reference)
+        status = cli_open_device(cli, &job->gpu);
+    if (status != CLI_OK)
+        return status;
+    const enum shot_status opened = job_open(job, camera);
+    return opened == SHOT_OK ? draw(v, job) : failed(v, job, opened);
+}
+
+static int make(struct verify *v) {
+    struct session session;
+    const struct session_options options = scene_options(v);
+    struct asset_store *store = asset_store_create();
+    struct job job = {.session = &session, .arena = &v->cli->arena, .wish = job_wish(v)};
+    session_load(&session, &options, store);
+    int status = judge_scene(v, &session);
+    interrupt_catch();
+    if (status == CLI_OK)
+        status = make_picture(v, &job);
+    job_close(&job);
+    cli_close_device(v->cli, job.gpu);
+    session_finish(&session);
+    asset_store_destroy(store);
     return status;
 }
 
@@ -188,13 +282,13 @@ static void count_pixels(struct verify *v) {
     }
 }
 
-static bool measure_displayed(struct verify *v, struct image_display display) {
+static bool measure_displayed(struct verify *v) {
     struct picture_file *p = v->pictures;
     struct measure_options options = measure_options_default();
     struct measure_result result;
     for (int i = 0; i < 2; i++)
         if (p[i].space == MEASURE_LINEAR)
-            image_to_displayed(p[i].rgb, (size_t)p[i].width * p[i].height, display, p[i].rgb);
+            image_to_displayed(p[i].rgb, (size_t)p[i].width * p[i].height, v->display, p[i].rgb);
     options.threshold = VERIFY_OFF;
     options.metrics = 1u << METRIC_MAE | 1u << METRIC_SHARE;
     if (!measure_pictures(p[0].width, p[0].height, p[0].rgb, p[1].rgb, &options, &result, NULL, NULL))
@@ -209,7 +303,7 @@ static int no_memory(struct verify *v) {
     return CLI_FILE;
 }
 
-static int compare(struct verify *v, struct image_display display) {
+static int compare(struct verify *v) {
     struct picture_file *p = v->pictures;
     bool unknown;
     const str made = strbuf_view(&v->made);
@@ -226,41 +320,21 @@ static int compare(struct verify *v, struct image_display display) {
         return CLI_OK;
     }
     count_pixels(v);
-    return v->pixels.differ == 0 || measure_displayed(v, display) ? CLI_OK : no_memory(v);
+    return v->pixels.differ == 0 || measure_displayed(v) ? CLI_OK : no_memory(v);
 }
 
 // ---- all of it
 
-static int render(struct verify *v, struct image_display *display) {
-    struct cli *cli = v->cli;
-    struct rendering r = {.cli = cli, .kept = &v->made};
-    struct cli_output *output = ARENA_NEW(&cli->arena, struct cli_output);
-    output->path = "-";
-    for (int format = 0; format < IMAGE_FORMATS; format++)
-        if (strcmp(image_format_info((enum image_format)format)->name, v->pictures[0].kind) == 0)
-            output->format = (enum image_format)format;
-    r.outputs = output;
-    r.output_count = 1;
-    cli->operands[0] = (char *)v->scene;
-    const int status = render_whole(&r);
-    *display = r.display;
-    // One with faulty pixels is a picture, and its errors were reported.
-    return v->made.len ? CLI_OK : status;
-}
-
 static int verify(struct verify *v) {
-    struct image_display display;
     int status = read_picture(v);
     if (status == CLI_OK)
         status = read_record(v);
     if (status != CLI_OK)
         return status;
     take_settings(v);
-    status = load_scene(v);
+    status = make(v);
     if (status == CLI_OK)
-        status = render(v, &display);
-    if (status == CLI_OK)
-        status = compare(v, display);
+        status = compare(v);
     if (status != CLI_OK)
         return status;
     struct strbuf text;

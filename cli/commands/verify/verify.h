@@ -29,6 +29,7 @@ struct verify {
     struct record_command command;
     struct picture_file pictures[2]; // the file's, and the one rendered now
     struct strbuf made;              // the file that render would write now
+    struct image_display display;    // its own
     struct verify_pixels pixels;
     char scene_hash[40];
     int status;
