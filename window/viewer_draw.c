@@ -19,10 +19,7 @@ enum {
 
 static bool fit(struct viewer_picture *picture, uint32_t width, uint32_t height) {
     picture->samples = 0;
-    if (picture->image.rgb && picture->image.width == width && picture->image.height == height)
-        return true;
-    image_finish(&picture->image);
-    return image_init(&picture->image, width, height);
+    return image_fit(&picture->image, width, height);
 }
 
 void viewer_drop_pictures(struct viewer *v) {

@@ -20,7 +20,7 @@ enum kind {
     KIND_JSON
 };
 
-struct job {
+struct extremes_run {
     struct cli *cli;
     struct session session;
     struct gpu *gpu;
@@ -35,15 +35,15 @@ struct job {
 
 // ---- bounds
 
-static int read_bounds(struct job *job) {
-    struct cli *cli = job->cli;
+static int read_bounds(struct extremes_run *run) {
+    struct cli *cli = run->cli;
     const char *path = cli->options.thresholds;
     str text = str_from(extremes_default_bounds);
-    job->bounds_path = path ? str_from(path) : STR("glint's own");
+    run->bounds_path = path ? str_from(path) : STR("glint's own");
     struct files files;
     files_init(&files, &cli->arena);
     enum file_status status =
-        path ? files_read_given(&files, job->bounds_path, BOUNDS_BYTES_MAX, &cli->arena, &text) : FILE_OK;
+        path ? files_read_given(&files, run->bounds_path, BOUNDS_BYTES_MAX, &cli->arena, &text) : FILE_OK;
     if (status != FILE_OK) {
         cli_error(cli, session_file_code(status), path, NULL, "the file of bounds %s",
                   file_status_text(&files, status));
@@ -51,10 +51,10 @@ static int read_bounds(struct job *job) {
     }
     struct diag_sink sink;
     diag_sink_init(&sink);
-    const uint32_t source = source_add(&cli->sources, SOURCE_KIND_FILE, job->bounds_path, text);
+    const uint32_t source = source_add(&cli->sources, SOURCE_KIND_FILE, run->bounds_path, text);
     const struct reader_context input = {
         .sources = &cli->sources, .sink = &sink, .limits = &cli->options.limits, .arena = &cli->arena};
-    bool good = extreme_bounds_read(&input, source, &job->bounds);
+    bool good = extreme_bounds_read(&input, source, &run->bounds);
     if (!good)
         diag_add(&sink, DIAG_OUT_OF_MEMORY, SPAN_NONE, "not enough memory for the bounds");
     good = sink.errors == 0;
@@ -115,31 +115,31 @@ static bool read_alternative(struct cli *cli, enum render_alternative *alternati
 // ---- the run
 
 static bool tell_progress(void *context, double fraction, const struct extreme_cell *cell) {
-    struct job *job = context;
+    struct extremes_run *run = context;
     (void)cell;
-    struct render_progress callback = progress_callback(&job->progress);
+    struct render_progress callback = progress_callback(&run->progress);
     return callback.report(callback.context, fraction);
 }
 
-static int failed(struct job *job, enum extremes_status status) {
-    struct cli *cli = job->cli;
+static int failed(struct extremes_run *run, enum extremes_status status) {
+    struct cli *cli = run->cli;
     if (status == EXTREMES_CANCELLED)
         return cli_interrupted(cli);
     if (status == EXTREMES_DEVICE)
-        return cli_device_failed(cli, job->gpu);
+        return cli_device_failed(cli, run->gpu);
     cli_error(cli, DIAG_OUT_OF_MEMORY, cli->operands[0], NULL, "not enough memory for the extremes");
     return CLI_SCENE;
 }
 
-static int tell(struct job *job, enum kind kind) {
-    struct cli *cli = job->cli;
-    const struct extremes_report report = {.extremes = &job->extremes,
-                                           .input = &job->input,
+static int tell(struct extremes_run *run, enum kind kind) {
+    struct cli *cli = run->cli;
+    const struct extremes_report report = {.extremes = &run->extremes,
+                                           .input = &run->input,
                                            .scene = str_from(cli->operands[0]),
-                                           .thresholds = job->bounds_path};
+                                           .thresholds = run->bounds_path};
     struct strbuf text;
     strbuf_init(&text);
-    int status = cli_report(cli, &job->session, !cli->options.quiet);
+    int status = cli_report(cli, &run->session, !cli->options.quiet);
     if (status == CLI_OK && cli->options.output) {
         extremes_html(&report, &text);
         status = cli_write_made(cli, cli->options.output, &text, "the report");
@@ -152,62 +152,62 @@ static int tell(struct job *job, enum kind kind) {
     if (status == CLI_OK && !(cli->options.output && strcmp(cli->options.output, "-") == 0))
         status = cli_write_made(cli, "-", &text, "the report");
     strbuf_finish(&text);
-    return status == CLI_OK && job->extremes.broken ? CLI_SCENE : status;
+    return status == CLI_OK && run->extremes.broken ? CLI_SCENE : status;
 }
 
-static int run_scene(struct job *job, enum kind kind) {
-    struct cli *cli = job->cli;
-    const uint32_t camera = session_camera(&job->session, cli->options.camera);
+static int run_scene(struct extremes_run *run, enum kind kind) {
+    struct cli *cli = run->cli;
+    const uint32_t camera = session_camera(&run->session, cli->options.camera);
     if (camera == IR_NO_INDEX)
-        return cli_report(cli, &job->session, !cli->options.quiet);
+        return cli_report(cli, &run->session, !cli->options.quiet);
     int status = cli_try_output(cli, cli->options.output);
     if (status == CLI_OK)
-        status = cli_open_device(cli, &job->gpu);
+        status = cli_open_device(cli, &run->gpu);
     if (status != CLI_OK)
         return status;
-    job->input =
-        (struct extremes_input){.scene = &job->session.resolved,
+    run->input =
+        (struct extremes_input){.scene = &run->session.resolved,
                                 .camera = camera,
                                 .width = cli->options.width ? (uint32_t)cli->options.width : WIDTH,
                                 .height = cli->options.height ? (uint32_t)cli->options.height : HEIGHT,
-                                .limits = &job->session.options.limits,
-                                .gpu = job->gpu,
-                                .bounds = job->bounds.items,
-                                .bound_count = job->bounds.count,
-                                .axes = job->axes,
-                                .alternative = job->alternative};
-    const struct extremes_progress progress = {tell_progress, job};
-    progress_begin(&job->progress, cli->options.quiet);
-    const enum extremes_status result = extremes_run(&job->extremes, &job->input, &progress);
-    progress_end(&job->progress);
-    return result == EXTREMES_DONE ? tell(job, kind) : failed(job, result);
+                                .limits = &run->session.options.limits,
+                                .gpu = run->gpu,
+                                .bounds = run->bounds.items,
+                                .bound_count = run->bounds.count,
+                                .axes = run->axes,
+                                .alternative = run->alternative};
+    const struct extremes_progress progress = {tell_progress, run};
+    progress_begin(&run->progress, cli->options.quiet);
+    const enum extremes_status result = extremes_run(&run->extremes, &run->input, &progress);
+    progress_end(&run->progress);
+    return result == EXTREMES_DONE ? tell(run, kind) : failed(run, result);
 }
 
 int cmd_extremes(struct cli *cli) {
     static const char *const kinds[] = {[KIND_TEXT] = "text", [KIND_JSON] = "json", NULL};
-    struct job job = {.cli = cli};
+    struct extremes_run run = {.cli = cli};
     int kind;
-    if (!cli_format(cli, kinds, &kind) || !read_axes(cli, &job.axes) ||
-        !read_alternative(cli, &job.alternative))
+    if (!cli_format(cli, kinds, &kind) || !read_axes(cli, &run.axes) ||
+        !read_alternative(cli, &run.alternative))
         return CLI_USAGE;
     const char *report = cli->options.output;
     if (cli_device_is_reference(cli))
         return cli_usage(cli, 1, "extremes are measured against the reference: choose a device");
     if (report && strcmp(report, "-") != 0 && !str_ends_with_nocase(str_from(report), ".html"))
         return cli_usage(cli, cli_option_place(cli, "output"), "the report '%s' must end in .html", report);
-    int status = read_bounds(&job);
+    int status = read_bounds(&run);
     if (status != CLI_OK)
         return status;
     interrupt_catch();
     struct asset_store *store = asset_store_create();
     struct session_options options = cli_session_options(cli, cli->operands[0]);
     options.whole_picture = true;
-    session_load(&job.session, &options, store);
-    const bool good = job.session.state == SESSION_LOADED && job.session.sink.errors == 0;
-    status = good ? run_scene(&job, (enum kind)kind) : cli_report(cli, &job.session, !cli->options.quiet);
-    extremes_finish(&job.extremes);
-    cli_close_device(cli, job.gpu);
-    session_finish(&job.session);
+    session_load(&run.session, &options, store);
+    const bool good = run.session.state == SESSION_LOADED && run.session.sink.errors == 0;
+    status = good ? run_scene(&run, (enum kind)kind) : cli_report(cli, &run.session, !cli->options.quiet);
+    extremes_finish(&run.extremes);
+    cli_close_device(cli, run.gpu);
+    session_finish(&run.session);
     asset_store_destroy(store);
     return status;
 }

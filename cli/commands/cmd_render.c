@@ -36,7 +36,7 @@ static int judge_load(struct rendering *r) {
     if (r->job.session->state != SESSION_LOADED || r->job.session->sink.errors)
         return cli_report(r->cli, r->job.session, !r->cli->options.quiet);
     if (interrupt_signal())
-        return render_interrupted(r);
+        return render_failed(r, SHOT_CANCELLED);
     int status = CLI_OK;
     for (uint32_t i = 0; i < r->output_count && status == CLI_OK; i++) {
         status = cli_judge_made(r->cli, render_typed(&r->outputs[i]), r->outputs[i].path);

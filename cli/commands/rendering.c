@@ -4,18 +4,15 @@
 
 #include <stdio.h>
 
-int render_interrupted(struct rendering *r) {
-    progress_end(&r->progress);
-    return cli_interrupted(r->cli);
+int render_not_drawn(struct cli *cli, const struct job *job, enum shot_status status, bool notes) {
+    if (status == SHOT_SCENE)
+        return cli_report(cli, job->session, notes);
+    return status == SHOT_CANCELLED ? cli_interrupted(cli) : cli_device_failed(cli, job->gpu);
 }
 
 int render_failed(struct rendering *r, enum shot_status status) {
     progress_end(&r->progress);
-    if (status == SHOT_CANCELLED)
-        return render_interrupted(r);
-    if (status == SHOT_SCENE)
-        return cli_report(r->cli, r->job.session, !r->cli->options.quiet);
-    return cli_device_failed(r->cli, r->job.gpu);
+    return render_not_drawn(r->cli, &r->job, status, !r->cli->options.quiet);
 }
 
 int render_scale_up(struct rendering *r) {

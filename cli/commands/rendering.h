@@ -46,7 +46,6 @@ void render_encode(struct rendering *r, enum image_format format, struct strbuf 
 // Whether one of them is standard output.
 bool render_uses_stdout(const struct rendering *r);
 // These return an exit code.
-int render_interrupted(struct rendering *r);
 // A smaller picture that was chosen, to the size asked for.
 int render_scale_up(struct rendering *r);
 // Every output of a camera's picture; and says on standard error which files there are.
@@ -54,6 +53,8 @@ int render_write_pictures(struct rendering *r, uint32_t camera);
 void render_tell_written(struct rendering *r, uint32_t camera);
 // Ends the progress and reports why there is no picture.
 int render_failed(struct rendering *r, enum shot_status status);
+// The same of any job, with the scene's notes or without.
+int render_not_drawn(struct cli *cli, const struct job *job, enum shot_status status, bool notes);
 
 // After a camera's picture was written: what its audit found, what --time left out, how long frames took. An
 // exit code: an audit that breaks --max-off is a failure, and fewer samples than --max-error asks for.

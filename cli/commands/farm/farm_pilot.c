@@ -3,11 +3,9 @@
 // picture is over at once, a larger one is measured.
 #include "cli/commands/batch/batch_job.h"
 #include "cli/commands/farm/farm.h"
+#include "cli/commands/rendering.h"
 #include "cli/device.h"
-#include "cli/progress.h"
 #include "core/clock.h"
-#include "grammar/ir.h"
-#include "render/job/job.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,13 +29,9 @@ struct pilot {
     double load_s[FRAMES_MOST];
 };
 
-static int failed(struct pilot *p, struct session *session, enum shot_status status) {
+static int failed(struct pilot *p, const struct job *drawn, enum shot_status status) {
     progress_end(&p->progress);
-    if (status == SHOT_CANCELLED)
-        return cli_interrupted(p->cli);
-    if (status == SHOT_SCENE)
-        return cli_report(p->cli, session, false);
-    return cli_device_failed(p->cli, p->gpu);
+    return render_not_drawn(p->cli, drawn, status, false);
 }
 
 // One small picture; *seconds is what it took.
@@ -89,7 +83,7 @@ static int measure_job(struct pilot *p, struct job *drawn) {
     out->width = width;
     out->height = height;
     out->picture_s += seconds / ((double)width * height) * p->whole_width * p->whole_height;
-    return status == SHOT_OK ? CLI_OK : failed(p, drawn->session, status);
+    return status == SHOT_OK ? CLI_OK : failed(p, drawn, status);
 }
 
 static int judge_session(struct pilot *p, struct session *session) {
@@ -163,7 +157,7 @@ static int measure_frame(struct pilot *p, const struct batch_job *job, uint32_t 
         const uint32_t camera = session_camera(&session, job->camera);
         const enum shot_status open = camera == IR_NO_INDEX ? SHOT_SCENE : job_open(&drawn, camera);
         p->load_s[number] = loaded + clock_seconds() - opened;
-        status = open == SHOT_OK ? measure_job(p, &drawn) : failed(p, &session, open);
+        status = open == SHOT_OK ? measure_job(p, &drawn) : failed(p, &drawn, open);
     }
     job_close(&drawn);
     session_finish(&session);

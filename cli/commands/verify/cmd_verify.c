@@ -175,12 +175,6 @@ static int scale(struct verify *v, struct job *job) {
                                                                               : no_memory_for_picture(v);
 }
 
-static int failed(struct verify *v, struct job *job, enum shot_status status) {
-    if (status == SHOT_SCENE)
-        return cli_report(v->cli, job->session, false);
-    return status == SHOT_CANCELLED ? cli_interrupted(v->cli) : cli_device_failed(v->cli, job->gpu);
-}
-
 static enum image_format format_of(const struct verify *v) {
     for (int format = 0; format < IMAGE_FORMATS; format++)
         if (strcmp(image_format_info((enum image_format)format)->name, v->pictures[0].kind) == 0)
@@ -207,7 +201,7 @@ static int draw(struct verify *v, struct job *job) {
         status = job_audit(job, &callback);
     }
     if (status != SHOT_OK)
-        return failed(v, job, status);
+        return render_not_drawn(v->cli, job, status, false);
     const int scaled = scale(v, job);
     if (scaled != CLI_OK)
         return scaled;
@@ -233,7 +227,7 @@ static int make_picture(struct verify *v, struct job *job) {
     if (status != CLI_OK)
         return status;
     const enum shot_status opened = job_open(job, camera);
-    return opened == SHOT_OK ? draw(v, job) : failed(v, job, opened);
+    return opened == SHOT_OK ? draw(v, job) : render_not_drawn(v->cli, job, opened, false);
 }
 
 static int make(struct verify *v) {
