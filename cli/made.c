@@ -33,7 +33,8 @@ static struct cli_made *made_of(struct cli *cli) {
 str cli_made_folder(struct cli *cli, str typed) {
     struct cli_made *made = made_of(cli);
     struct files files;
-    if (made->canonical.len && str_equal(made->typed, typed)) // one that was not there may have been made since
+    if (made->canonical.len &&
+        str_equal(made->typed, typed)) // one that was not there may have been made since
         return made->canonical;
     files_init(&files, &cli->arena);
     made->typed = arena_copy(&cli->arena, typed);

@@ -61,8 +61,9 @@ struct plan_search_probe plan_search_probe(const struct setting *base, double ra
 uint64_t plan_search_pilot(const struct plan_search_pilot *pilots, uint32_t count, double rays_most,
                            uint64_t segments_most, double bearable);
 
-// The mean of a pixel's first `samples` samples, and that of the last `newer` of `older` + `newer`: how many times as far
-// as from each other the first is from the truth. At least what chance makes of it, and at least what straight edges do.
+// The mean of a pixel's first `samples` samples, and that of the last `newer` of `older` + `newer`: how many
+// times as far as from each other the first is from the truth. At least what chance makes of it, and at least
+// what straight edges do.
 double plan_search_reach(uint32_t samples, uint32_t older, uint32_t newer);
 
 #endif
