@@ -4,21 +4,7 @@
 #include "scene/transform.h"
 
 static struct material make_material(const struct scene_material *from) {
-    struct material m = {.checker = from->checker,
-                         .cell = from->cell,
-                         .specular = vec3_mul(from->specular, from->specular_weight),
-                         .emission = from->emission,
-                         .exponent = from->specular_exponent,
-                         .reflection = from->reflection,
-                         .refraction = from->refraction,
-                         .index = from->refractive_index,
-                         .is = from,
-                         .has_paint = (from->checker && from->soft) || from->images[ASSETS_DIFFUSE].texture ||
-                                      from->images[ASSETS_SPECULAR].texture,
-                         .fresnel = from->fresnel,
-                         .alpha = from->alpha,
-                         .priority = from->priority,
-                         .absorption = from->absorption};
+    struct material m = {.is = from, .specular = vec3_mul(from->specular, from->specular_weight)};
     for (int i = 0; i < 2; i++)
         m.diffuse[i] = vec3_mul(from->diffuse[i], from->diffuse_weight);
     return m;

@@ -106,7 +106,8 @@ static vec3 unshadowed(const struct reference *r, const struct view_light *light
     if (!vec3_is_zero(s->specular)) {
         // r·v = 1 - |r - v|² / 2 with v = -direction
         vec3 gap = vec3_add(vec3_sub(vec3_mul(s->shading, 2 * facing), l), direction);
-        value = vec3_add(value, vec3_mul(s->specular, highlight(0.5 * vec3_dot(gap, gap), s->exponent)));
+        value = vec3_add(
+            value, vec3_mul(s->specular, highlight(0.5 * vec3_dot(gap, gap), s->is->specular_exponent)));
     }
     vec3 emission = vec3_mul(light->emission, spot->share);
     if (light->inverse_square) {
@@ -268,7 +269,7 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
         out->sum = vec3_add(out->sum, scaled(value, share));
     }
     const vec3 around = ambient(r, s, inside, points, key, out);
-    out->sum = vec3_add(out->sum, vec3_add(s->emission, around));
+    out->sum = vec3_add(out->sum, vec3_add(s->is->emission, around));
     out->sum = vec3_add(out->sum, from_sky(r, s, direction, inside, points, key, out));
 }
 

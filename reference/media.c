@@ -15,7 +15,7 @@ uint32_t reference_filling(const struct reference *r, const struct inside *insid
     uint32_t found = HIT_NONE;
     int32_t most = INT32_MIN;
     for (uint32_t i = 0; i < inside->count; i++) {
-        const int32_t priority = r->materials[r->bodies[inside->bodies[i]].filling].priority;
+        const int32_t priority = r->materials[r->bodies[inside->bodies[i]].filling].is->priority;
         if (priority >= most) {
             found = inside->bodies[i];
             most = priority;
@@ -48,7 +48,7 @@ static bool enter(struct inside *inside, uint32_t body) {
 static double index_of(const struct reference *r, uint32_t medium, const struct surface *s) {
     if (medium == HIT_NONE)
         return 1;
-    return medium == s->body ? s->index : r->materials[r->bodies[medium].filling].index;
+    return medium == s->body ? s->index : r->materials[r->bodies[medium].filling].is->refractive_index;
 }
 
 static bool is_same(const struct reference *r, uint32_t a, uint32_t b) {
@@ -60,7 +60,7 @@ static bool is_same(const struct reference *r, uint32_t a, uint32_t b) {
 
 // Without media: the side of the surface tells all.
 static void cross_alone(struct surface *s) {
-    const bool leaves = s->solid && s->refraction > 0 && !s->enters;
+    const bool leaves = s->solid && s->is->refraction > 0 && !s->enters;
     s->index_before = leaves ? s->index : 1;
     s->index_after = leaves ? 1 : s->index;
 }
@@ -73,7 +73,7 @@ void reference_cross(const struct reference *r, const struct inside *before, str
     }
     struct inside around = *before; // what the ray is inside but for this body
     const bool was_inside = leave(&around, s->body);
-    if (!s->solid || !(s->refraction > 0)) {
+    if (!s->solid || !(s->is->refraction > 0)) {
         s->index_before = index_of(r, reference_filling(r, before), s);
         s->index_after = s->index;
         return;
@@ -94,7 +94,7 @@ vec3 reference_left(const struct reference *r, const struct inside *inside, doub
     const uint32_t medium = r->media ? reference_filling(r, inside) : HIT_NONE;
     if (medium == HIT_NONE)
         return (vec3){1, 1, 1};
-    const vec3 rate = r->materials[r->bodies[medium].filling].absorption;
+    const vec3 rate = r->materials[r->bodies[medium].filling].is->absorption;
     return (vec3){exp(-rate.x * way), exp(-rate.y * way), exp(-rate.z * way)};
 }
 

@@ -51,19 +51,9 @@ struct body {
     uint32_t filling; // of a medium: its material
 };
 
-// A material whose colours are multiplied by their weights.
 struct material {
-    vec3 diffuse[2];
-    bool checker;
-    double cell;
-    vec3 specular, emission;
-    double exponent, reflection, refraction, index;
     const struct scene_material *is;
-    bool has_paint; // an image, or a checker that is filtered
-    bool fresnel;
-    double alpha;
-    int32_t priority;
-    vec3 absorption;
+    vec3 diffuse[2], specular; // times their weights
 };
 
 // The media that a ray is inside, those entered first in front.
@@ -242,13 +232,12 @@ struct surface {
     vec3 point, error;
     vec3 geometric, shading;
     bool enters, solid;
+    const struct scene_material *is;
     vec3 diffuse, specular; // times their weights
-    vec3 emission;
-    double exponent, reflection, refraction, index;
+    double index;
     double bend;  // how fast the normal turns along the surface: positive where it bulges to the ray's side
     double width; // of the ray's cone
     struct reference_texel texel;
-    bool fresnel;
     double alpha; // of its facets; 0: smooth
     vec3 facet;   // the normal that reflects and refracts: the shading normal, or that of reference_roughen
     // Of a ray that comes from a place inside certain media: reference_cross.

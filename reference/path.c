@@ -112,7 +112,7 @@ static double send_rays(struct following *f, const struct branch *from, const st
     struct branch through = child_of(from, segment, REFERENCE_REFRACTED);
     struct split split;
     reference_split(f->r, s, from->direction, &split);
-    *total = s->refraction > 0 && !split.through;
+    *total = s->is->refraction > 0 && !split.through;
     f->sample->total_reflections += *total;
     double cut = 0;
     through.throughput *= reference_refraction(s, &split);

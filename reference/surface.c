@@ -49,20 +49,17 @@ static void take_material(const struct reference *r, const struct scene_body *bo
     s->material = scene_body_material(body, s->triangle);
     const struct material *m = &r->materials[s->material];
     bool odd = false;
-    if (m->checker) {
+    if (m->is->checker) {
         const vec3 exact = reference_checker_place(body, s, b, arm);
         const vec3 at = reference_rounded3(r, exact, checker_error(r, body, s, exact));
-        odd = is_odd(cell_of(at.x, m->cell) + cell_of(at.y, m->cell) + cell_of(at.z, m->cell));
+        const double cell = m->is->cell;
+        odd = is_odd(cell_of(at.x, cell) + cell_of(at.y, cell) + cell_of(at.z, cell));
     }
+    s->is = m->is;
     s->diffuse = m->diffuse[odd];
     s->specular = m->specular;
-    s->emission = m->emission;
-    s->exponent = m->exponent;
-    s->reflection = m->reflection;
-    s->refraction = m->refraction;
-    s->index = m->index;
-    s->fresnel = m->fresnel;
-    s->alpha = m->alpha;
+    s->index = m->is->refractive_index;
+    s->alpha = m->is->alpha;
     s->solid = body->closed;
 }
 
@@ -165,7 +162,7 @@ void reference_surface(const struct reference *r, const struct ray *ray, const s
     take_material(r, body->is, b, arm, out);
     out->facet = out->shading;
     out->width = ray->cone.width + ray->cone.spread * hit->t;
-    if (r->materials[out->material].has_paint)
+    if (scene_material_is_painted(out->is))
         reference_paint(r, ray, b, arm, out);
 }
 
@@ -247,14 +244,14 @@ static double fresnel(double n, double m, struct angles at, bool pane) {
 
 // From the thinner side, whichever the ray comes from: as of light that was bent on its way in.
 double reference_shine(const struct surface *s, vec3 direction) {
-    if (!s->fresnel)
-        return s->refraction;
+    if (!s->is->fresnel)
+        return s->is->refraction;
     const double low = fmin(s->index_before, s->index_after), high = fmax(s->index_before, s->index_after);
     double c = -vec3_dot(direction, s->shading);
     if (c <= 0)
         c = -vec3_dot(direction, s->geometric);
     const struct angles at = {c, 1 - square(low / high) * (1 - c * c)};
-    return s->refraction * (1 - fresnel(low, high, at, !s->solid));
+    return s->is->refraction * (1 - fresnel(low, high, at, !s->solid));
 }
 
 void reference_split(const struct reference *r, const struct surface *s, vec3 direction, struct split *out) {
@@ -271,18 +268,19 @@ void reference_split(const struct reference *r, const struct surface *s, vec3 di
                           .through = straight || at.k >= 0};
     if (s->alpha > 0 && !s->solid)
         out->bent = mirror(reference_mirrored(r, s, direction), s->geometric);
-    if (s->fresnel)
-        out->reflected = fresnel(s->index_before, s->index_after, at, !s->solid && s->refraction > 0);
+    if (s->is->fresnel)
+        out->reflected = fresnel(s->index_before, s->index_after, at, !s->solid && s->is->refraction > 0);
 }
 
 double reference_reflection(const struct surface *s, const struct split *split) {
-    if (s->fresnel)
-        return s->reflection * split->reflected;
-    return s->refraction > 0 && !split->through ? s->reflection + s->refraction : s->reflection;
+    if (s->is->fresnel)
+        return s->is->reflection * split->reflected;
+    return s->is->refraction > 0 && !split->through ? s->is->reflection + s->is->refraction
+                                                    : s->is->reflection;
 }
 
 double reference_refraction(const struct surface *s, const struct split *split) {
     if (!split->through)
         return 0;
-    return s->fresnel ? s->refraction * (1 - split->reflected) : s->refraction;
+    return s->is->fresnel ? s->is->refraction * (1 - split->reflected) : s->is->refraction;
 }

@@ -28,28 +28,18 @@ static vec3 absorption_of(const struct ir_material *ir, unsigned transfer) {
     return (vec3){absorbed(color.x, distance), absorbed(color.y, distance), absorbed(color.z, distance)};
 }
 
-static struct scene_material material_of(const struct ir_material *ir, unsigned transfer) {
+static bool has_checker(const struct ir_material *ir) {
+    return ir->diffuse_color.kind == IR_PAINT_CHECKER;
+}
+
+static vec3 paint_color(const struct ir_material *ir, int odd, unsigned transfer) {
     const struct ir_paint *paint = &ir->diffuse_color;
-    bool checker = paint->kind == IR_PAINT_CHECKER;
-    struct scene_material m = {.diffuse_weight = ir->albedo.diffuse,
-                               .specular_weight = ir->albedo.specular,
-                               .reflection = ir->albedo.reflection,
-                               .refraction = ir->albedo.refraction,
-                               .checker = checker,
-                               .cell = checker ? paint->checker.size : 1,
-                               .soft = checker && paint->checker.antialias,
-                               .specular = scene_linear_color(ir->specular_color.color, transfer),
-                               .emission = scene_linear_color(ir->emission, transfer),
-                               .specular_exponent = ir->specular_exponent,
-                               .refractive_index = ir->refractive_index,
-                               .fresnel = ir->fresnel,
-                               .alpha = ir->roughness * ir->roughness,
-                               .priority = ir->priority,
-                               .absorption = absorption_of(ir, transfer),
-                               .features = ir_material_features(ir)};
-    for (int i = 0; i < 2; i++)
-        m.diffuse[i] = scene_linear_color(checker ? paint->checker.colors[i] : paint->color, transfer);
-    return m;
+    return scene_linear_color(has_checker(ir) ? paint->checker.colors[odd] : paint->color, transfer);
+}
+
+#define FROM_IR(kind, name, share, record, ...) .name = __VA_ARGS__,
+static struct scene_material material_of(const struct ir_material *ir, unsigned transfer) {
+    return (struct scene_material){SCENE_MATERIAL_FIELDS(FROM_IR)};
 }
 
 static struct scene_background background_of(const struct ir_background *ir, const struct assets *assets,

@@ -65,8 +65,8 @@ static int compare_colors(const vec3 a[2], const vec3 b[2]) {
 #define ORDER_COLORS(name) compare_colors(a->name, b->name)
 #define ORDER_IMAGES(name) compare_images(a->name, b->name)
 #define COMPARE_BESIDE(kind, name)
-#define COMPARE_MEDIUM(kind, name)       order = order ? order : ORDER_##kind(name);
-#define COMPARE_FIELD(kind, name, share) COMPARE_##share(kind, name)
+#define COMPARE_MEDIUM(kind, name)            order = order ? order : ORDER_##kind(name);
+#define COMPARE_FIELD(kind, name, share, ...) COMPARE_##share(kind, name)
 
 int scene_compare_media(const struct scene_material *a, const struct scene_material *b) {
     int order = 0;

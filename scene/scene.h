@@ -91,14 +91,14 @@ struct scene_image {
 };
 
 // A material as the tracers see it. Colours are linear and not yet multiplied by their weights.
-#define SCENE_DECLARE_NUMBER(name)         double name;
-#define SCENE_DECLARE_FLAG(name)           bool name;
-#define SCENE_DECLARE_WHOLE(name)          int32_t name;
-#define SCENE_DECLARE_BITS(name)           uint64_t name;
-#define SCENE_DECLARE_COLOR(name)          vec3 name;
-#define SCENE_DECLARE_COLORS(name)         vec3 name[2];
-#define SCENE_DECLARE_IMAGES(name)         struct scene_image name[ASSETS_IMAGES];
-#define SCENE_DECLARE_FIELD(kind, name, _) SCENE_DECLARE_##kind(name)
+#define SCENE_DECLARE_NUMBER(name)           double name;
+#define SCENE_DECLARE_FLAG(name)             bool name;
+#define SCENE_DECLARE_WHOLE(name)            int32_t name;
+#define SCENE_DECLARE_BITS(name)             uint64_t name;
+#define SCENE_DECLARE_COLOR(name)            vec3 name;
+#define SCENE_DECLARE_COLORS(name)           vec3 name[2];
+#define SCENE_DECLARE_IMAGES(name)           struct scene_image name[ASSETS_IMAGES];
+#define SCENE_DECLARE_FIELD(kind, name, ...) SCENE_DECLARE_##kind(name)
 struct scene_material {
     SCENE_MATERIAL_FIELDS(SCENE_DECLARE_FIELD)
 };

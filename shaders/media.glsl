@@ -46,7 +46,7 @@ uint medium_of(uint entry) {
 REAL medium_index(uint entry, uint medium, uint own, REAL own_index) {
     REAL index = 1.0;
     if (medium != 0u)
-        index = entry == own ? own_index : load_material(medium - 1u).index;
+        index = entry == own ? own_index : load_material(medium - 1u).refractive_index;
     return index;
 }
 

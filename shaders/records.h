@@ -145,17 +145,17 @@
 #define MATERIAL_WORDS   6
 #define MATERIAL64_WORDS 7
 #define MATERIAL_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                    \
-    FLOAT(weight_diffuse, 0, x, 0, x)                                                                        \
-    FLOAT(weight_specular, 0, y, 0, y)                                                                       \
-    FLOAT(weight_reflection, 0, z, 0, z)                                                                     \
-    FLOAT(weight_refraction, 0, w, 0, w)                                                                     \
+    FLOAT(diffuse_weight, 0, x, 0, x)                                                                        \
+    FLOAT(specular_weight, 0, y, 0, y)                                                                       \
+    FLOAT(reflection, 0, z, 0, z)                                                                            \
+    FLOAT(refraction, 0, w, 0, w)                                                                            \
     FLOAT3(diffuse, 1, 1)                                                                                    \
-    FLOAT(exponent, 1, w, 1, w)                                                                              \
+    FLOAT(specular_exponent, 1, w, 1, w)                                                                     \
     FLOAT3(specular, 2, 2)                                                                                   \
-    REAL(index, 2, w, 4, xy)                                                                                 \
-    FLOAT3(second, 3, 3)     /* colour of the checker's odd cells */                                         \
-    REAL(cell, 3, w, 4, zw)  /* 0: no checker */                                                             \
-    FLOAT3(absorption, 4, 5) /* per flat unit: exp(-absorption * way) is left of light */                    \
+    REAL(refractive_index, 2, w, 4, xy)                                                                      \
+    FLOAT3(diffuse_odd, 3, 3) /* colour of the checker's odd cells */                                        \
+    REAL(cell, 3, w, 4, zw)   /* 1: no checker */                                                            \
+    FLOAT3(absorption, 4, 5)  /* per flat unit: exp(-absorption * way) is left of light */                   \
     UINT(fresnel, 4, w, 5, w)                                                                                \
     FLOAT3(emission, 5, 6)                                                                                   \
     FLOAT(alpha, 5, w, 6, w) /* of a rough surface */

@@ -57,12 +57,12 @@ void read_material(uint shade, uint body, REAL2 along, paint_spot spot, inout su
             bool is_half = (shade & TRIANGLE_HALF) != 0u, is_checker = (shade & TRIANGLE_CHECKER) != 0u;
             own = (is_half ? REAL3(along * map.row_x.xy, 0.0) : own) / material.cell;
             bool odd = is_odd(floor(own.x) + floor(own.y) + floor(own.z));
-            color = is_checker && odd ? material.second : color;
+            color = is_checker && odd ? material.diffuse_odd : color;
             if (HAS_FOOTPRINT && painted && is_checker && (load_paint(2u * number).flags & PAINT_SOFT) != 0u) {
                 REAL3 a = cell_change(map, is_half, spot.axis_along, spot.along, material.cell);
                 REAL3 b = cell_change(map, is_half, spot.axis_across, spot.across, material.cell);
                 float share = odd_share(own, a, b, is_half);
-                color = material.diffuse * (1.0 - share) + material.second * share;
+                color = material.diffuse * (1.0 - share) + material.diffuse_odd * share;
             }
         }
         if (HAS_TEXTURES && painted) {
@@ -70,22 +70,22 @@ void read_material(uint shade, uint body, REAL2 along, paint_spot spot, inout su
             if (image.levels != 0u)
                 color = image_color(image, spot);
         }
-        s.diffuse = color * material.weight_diffuse;
-        s.has_diffuse = material.weight_diffuse != 0.0;
+        s.diffuse = color * material.diffuse_weight;
+        s.has_diffuse = material.diffuse_weight != 0.0;
     }
-    s.specular = material.specular * material.weight_specular;
+    s.specular = material.specular * material.specular_weight;
     if (HAS_SPECULAR && HAS_TEXTURES && painted) {
         paint_record image = load_paint(2u * number + 1u);
         if (image.levels != 0u)
-            s.specular = image_color(image, spot) * material.weight_specular;
+            s.specular = image_color(image, spot) * material.specular_weight;
     }
-    s.has_specular = material.weight_specular != 0.0;
+    s.has_specular = material.specular_weight != 0.0;
     if (HAS_EMISSION)
         s.emission = material.emission;
-    s.index = material.index;
-    s.exponent = material.exponent;
-    s.reflection = material.weight_reflection;
-    s.refraction = material.weight_refraction;
+    s.index = material.refractive_index;
+    s.exponent = material.specular_exponent;
+    s.reflection = material.reflection;
+    s.refraction = material.refraction;
     if (HAS_FRESNEL)
         s.fresnel = material.fresnel != 0u;
     if (HAS_ROUGHNESS)

@@ -21,28 +21,29 @@ enum {
 
 // ---- materials
 
+// A number per scene unit as one per flat unit.
+static vec3 per_flat_unit(const struct flattening *f, vec3 value) {
+    const vec3 flat = vec3_mul(value, 1 / f->factor);
+    return (vec3){fmin(flat.x, SCENE_ABSORPTION_MAX), fmin(flat.y, SCENE_ABSORPTION_MAX),
+                  fmin(flat.z, SCENE_ABSORPTION_MAX)};
+}
+
+#define SAME_NUMBER(name)           .name = m->name,
+#define SAME_FLAG(name)             .name = m->name,
+#define SAME_COLOR(name)            .name = m->name,
+#define SAME_COLORS(name)           .name = m->name[0], .name##_odd = m->name[1],
+#define RECORD_MATERIAL(kind, name) SAME_##kind(name)
+#define RECORD_FLAT(kind, name)     .name = per_flat_unit(f, m->name),
+#define RECORD_APART(kind, name)
+#define RECORD_FIELD(kind, name, share, to, ...) RECORD_##to(kind, name)
+
 enum flatten_fault flatten_materials(struct flattening *f) {
     const uint32_t stride = f->out->strides.material;
     if (!flat_array_make(&f->out->materials, (uint64_t)f->scene->material_count * stride))
         return FLATTEN_NO_MEMORY;
     for (uint32_t i = 0; i < f->scene->material_count; i++) {
         const struct scene_material *m = &f->scene->materials[i];
-        struct gpu_material record = {.weight_diffuse = m->diffuse_weight,
-                                      .weight_specular = m->specular_weight,
-                                      .weight_reflection = m->reflection,
-                                      .weight_refraction = m->refraction,
-                                      .diffuse = m->diffuse[0],
-                                      .exponent = m->specular_exponent,
-                                      .specular = m->specular,
-                                      .emission = m->emission,
-                                      .index = m->refractive_index,
-                                      .absorption = flatten_absorption(f, m),
-                                      .fresnel = m->fresnel,
-                                      .alpha = m->alpha};
-        if (m->checker) {
-            record.second = m->diffuse[1];
-            record.cell = m->cell;
-        }
+        const struct gpu_material record = {SCENE_MATERIAL_FIELDS(RECORD_FIELD)};
         gpu_pack_material(&record, f->out->is_double, f->out->materials.words + (size_t)stride * i);
     }
     return FLATTEN_DONE;

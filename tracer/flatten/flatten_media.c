@@ -5,8 +5,6 @@
 #include "tracer/flatten/flatten_parts.h"
 
 #include <assert.h>
-#include <float.h>
-#include <math.h>
 #include <stdlib.h>
 
 static_assert(MEDIA_MOST == SCENE_MEDIA_MOST, "a path has room for what the language allows");
@@ -87,10 +85,4 @@ enum flatten_fault flatten_media(struct flattening *f) {
             f->media_features |= FEATURE_ATTENUATION;
     }
     return number_media(f);
-}
-
-vec3 flatten_absorption(const struct flattening *f, const struct scene_material *material) {
-    const vec3 flat = vec3_mul(material->absorption, 1 / f->factor);
-    return (vec3){fmin(flat.x, SCENE_ABSORPTION_MAX), fmin(flat.y, SCENE_ABSORPTION_MAX),
-                  fmin(flat.z, SCENE_ABSORPTION_MAX)};
 }

@@ -116,8 +116,6 @@ void flatten_keep(struct flattening *f);
 
 // Which media the scene has, if rays must know them.
 enum flatten_fault flatten_media(struct flattening *f);
-// Per flat unit.
-vec3 flatten_absorption(const struct flattening *f, const struct scene_material *material);
 
 // ---- flatten_shade.c
 

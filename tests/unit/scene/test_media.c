@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#define COUNT_FIELD(kind, name, share) +1
+#define COUNT_FIELD(...) +1
 enum {
     FIELDS = SCENE_MATERIAL_FIELDS(COUNT_FIELD)
 };
@@ -18,7 +18,7 @@ static const struct {
     size_t offset, size;
     const char *share;
 } fields[] = {
-#define FIELD_ROW(kind, name, share)                                                                         \
+#define FIELD_ROW(kind, name, share, ...)                                                                    \
     {offsetof(struct scene_material, name), sizeof((struct scene_material *)0)->name, #share},
     SCENE_MATERIAL_FIELDS(FIELD_ROW)};
 
