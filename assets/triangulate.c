@@ -97,7 +97,7 @@ static void project(const vec3 *corners, uint32_t n, double scale, vec3 normal,
                     struct triangulate_point *points) {
     double ax = fabs(normal.x), ay = fabs(normal.y), az = fabs(normal.z);
     int axis = ax >= ay && ax >= az ? 0 : ay >= az ? 1 : 2;
-    double along = axis == 0 ? normal.x : axis == 1 ? normal.y : normal.z;
+    double along = vec3_along(normal, axis);
     for (uint32_t i = 0; i < n; i++) {
         vec3 p = vec3_mul(vec3_sub(corners[i], corners[0]), scale);
         double u = axis == 0 ? p.y : axis == 1 ? p.z : p.x;

@@ -29,6 +29,16 @@ static inline vec3 vec3_sub(vec3 a, vec3 b) {
 static inline vec3 vec3_mul(vec3 a, double s) {
     return (vec3){a.x * s, a.y * s, a.z * s};
 }
+// Component by component.
+static inline vec3 vec3_times(vec3 a, vec3 b) {
+    return (vec3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+static inline vec3 vec3_abs(vec3 a) {
+    return (vec3){fabs(a.x), fabs(a.y), fabs(a.z)};
+}
+static inline double vec3_along(vec3 a, int axis) {
+    return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
+}
 static inline vec3 vec3_neg(vec3 a) {
     return (vec3){-a.x, -a.y, -a.z};
 }
@@ -102,6 +112,9 @@ static inline vec3 mat3_apply(mat3 a, vec3 v) {
                   a.m[2][0] * v.x + a.m[2][1] * v.y + a.m[2][2] * v.z};
 }
 
+static inline vec3 mat3_row(mat3 a, int i) {
+    return (vec3){a.m[i][0], a.m[i][1], a.m[i][2]};
+}
 static inline vec3 mat3_column(mat3 a, int i) {
     return (vec3){a.m[0][i], a.m[1][i], a.m[2][i]};
 }

@@ -11,8 +11,7 @@ enum {
 // ---- building
 
 static double middle(const struct lint_box_item *item, int axis) {
-    vec3 sum = vec3_add(item->box.lower, item->box.upper);
-    return axis == 0 ? sum.x : axis == 1 ? sum.y : sum.z;
+    return vec3_along(vec3_add(item->box.lower, item->box.upper), axis);
 }
 
 // Of equal places the order of the scene decides, so that every run finds the same pairs.

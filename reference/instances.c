@@ -33,10 +33,6 @@ static vec3 rows_size(const mat3 *m, vec3 v) {
     return (vec3){row_size(m->m[0], v), row_size(m->m[1], v), row_size(m->m[2], v)};
 }
 
-static vec3 absolute(vec3 v) {
-    return (vec3){fabs(v.x), fabs(v.y), fabs(v.z)};
-}
-
 // How far to_mesh times the body's map is from doing nothing, with the rounding of that product.
 static mat3 lost(const mat3 *to_mesh, const mat3 *map) {
     mat3 off;
@@ -57,10 +53,10 @@ static bool invert(const struct body *body, struct instance *out) {
     const struct mesh *mesh = body->is->mesh;
     const affine3 *map = &body->object_to_world;
     out->to_mesh = transform_inverse(*map).linear;
-    const vec3 size = vec3_max(absolute(mesh->lower), absolute(mesh->upper));
+    const vec3 size = vec3_max(vec3_abs(mesh->lower), vec3_abs(mesh->upper));
     const mat3 off = lost(&out->to_mesh, &map->linear);
     out->shift = rows_size(&off, size);
-    out->reach = vec3_add(rows_size(&map->linear, size), vec3_mul(absolute(body->object_to_world.offset), 2));
+    out->reach = vec3_add(rows_size(&map->linear, size), vec3_mul(vec3_abs(body->object_to_world.offset), 2));
     const double most = vec3_max_abs(size);
     return out->shift.x <= SHIFT_MOST * most && out->shift.y <= SHIFT_MOST * most &&
            out->shift.z <= SHIFT_MOST * most && isfinite(vec3_max_abs(out->reach));
@@ -167,7 +163,7 @@ void reference_to_mesh(const struct reference *r, const struct instance *instanc
     const mat3 *to_mesh = &instance->to_mesh;
     const vec3 at = mat3_apply(*to_mesh, vec3_sub(from, r->bodies[instance->body].object_to_world.offset));
     const vec3 along = mat3_apply(*to_mesh, (vec3){direction[0], direction[1], direction[2]});
-    const vec3 sizes = vec3_mul(vec3_add(absolute(from), instance->reach), UNITS * reference_unit(r));
+    const vec3 sizes = vec3_mul(vec3_add(vec3_abs(from), instance->reach), UNITS * reference_unit(r));
     const vec3 slack = vec3_add(rows_size(to_mesh, sizes), instance->shift);
     const vec3 lower = vec3_add(at, slack), upper = vec3_sub(at, slack);
     *out = (struct tree_ray){.instance = instance,

@@ -20,10 +20,6 @@ static double highlight(double loss, double exponent) {
     return loss < 1 ? exp(exponent * log1p(-loss)) : 0;
 }
 
-static vec3 scaled(vec3 a, vec3 b) {
-    return (vec3){a.x * b.x, a.y * b.y, a.z * b.z};
-}
-
 // Where a sample takes a light.
 struct spot {
     vec3 place;   // less the origin; of a light that is not infinitely far away
@@ -115,7 +111,7 @@ static vec3 unshadowed(const struct reference *r, const struct view_light *light
         double distance = vec3_length(vec3_sub(middle, s->point));
         emission = vec3_mul(emission, 1 / (distance * distance));
     }
-    return scaled(emission, value);
+    return vec3_times(emission, value);
 }
 
 static struct ray ray_to(const struct reference *r, const struct view_light *light, const struct spot *spot,
@@ -140,10 +136,10 @@ static vec3 shining(const struct reference *r, const struct view_light *light, c
         out->shadow_rays++;
         reference_intersect(r, &ray, &hit);
         if (hit.primitive == NO_PRIMITIVE)
-            return light->directional ? left : scaled(left, reference_left(r, &inside, length));
+            return light->directional ? left : vec3_times(left, reference_left(r, &inside, length));
         reference_surface(r, &ray, &hit, &s);
         reference_cross(r, &inside, &s);
-        left = scaled(left, reference_left(r, &inside, s.distance * length));
+        left = vec3_times(left, reference_left(r, &inside, s.distance * length));
         out->shadow_rays -= s.passes; // it is the same ray that goes on
         out->unseen += s.passes;
         if (!s.passes)
@@ -173,7 +169,7 @@ static vec3 arriving(const struct reference *r, const struct view_light *light, 
 static vec3 ambient(const struct reference *r, const struct surface *s, const struct inside *inside,
                     const struct points *points, uint32_t key, struct lighting *out) {
     const struct scene *scene = r->input.scene;
-    const vec3 value = scaled(s->diffuse, scene->ambient);
+    const vec3 value = vec3_times(s->diffuse, scene->ambient);
     if (scene->occlusion == 0 || !scene->ir->trace.shadows || vec3_max_abs(value) < LEAST_LIGHT)
         return value;
     double a, b, x, y;
@@ -185,7 +181,7 @@ static vec3 ambient(const struct reference *r, const struct surface *s, const st
     const struct view_light nowhere = {.extent = VIEW_POINT};
     const struct spot spot = {.place = vec3_add(s->point, vec3_mul(l, scene->occlusion)), .l = l};
     const struct start start = reference_leave(r, s, s->geometric);
-    return scaled(value, arriving(r, &nowhere, &spot, start, inside, out));
+    return vec3_times(value, arriving(r, &nowhere, &spot, start, inside, out));
 }
 
 // ---- the background as a light
@@ -245,7 +241,7 @@ static vec3 from_sky(const struct reference *r, const struct surface *s, vec3 di
     if (vec3_max_abs(value) < LEAST_LIGHT)
         return (vec3){0, 0, 0};
     const struct start start = reference_leave(r, s, s->geometric);
-    return scaled(value, arriving(r, &light, &spot, start, inside, out));
+    return vec3_times(value, arriving(r, &light, &spot, start, inside, out));
 }
 
 void reference_light(const struct reference *r, const struct surface *s, vec3 direction,
@@ -266,7 +262,7 @@ void reference_light(const struct reference *r, const struct surface *s, vec3 di
         if (!(vec3_max_abs(share) > 0))
             continue;
         out->lit |= bit;
-        out->sum = vec3_add(out->sum, scaled(value, share));
+        out->sum = vec3_add(out->sum, vec3_times(value, share));
     }
     const vec3 around = ambient(r, s, inside, points, key, out);
     out->sum = vec3_add(out->sum, vec3_add(s->is->emission, around));

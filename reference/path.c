@@ -60,12 +60,8 @@ struct following {
     struct points points;
 };
 
-static vec3 scaled(vec3 a, vec3 b) {
-    return (vec3){a.x * b.x, a.y * b.y, a.z * b.z};
-}
-
 static void add(struct following *f, vec3 value, const struct branch *b) {
-    f->sample->radiance = vec3_add(f->sample->radiance, scaled(vec3_mul(value, b->throughput), b->tint));
+    f->sample->radiance = vec3_add(f->sample->radiance, vec3_times(vec3_mul(value, b->throughput), b->tint));
 }
 
 static void see(struct following *f, vec3 value) {
@@ -209,7 +205,7 @@ static bool see_light(struct following *f, struct branch *b, double t_max,
     if (light == IR_NO_INDEX)
         return false;
     const vec3 radiance = f->r->input.view->lights[light].radiance;
-    b->tint = scaled(b->tint, reference_left(f->r, &b->inside, t * vec3_length(b->direction)));
+    b->tint = vec3_times(b->tint, reference_left(f->r, &b->inside, t * vec3_length(b->direction)));
     see(f, radiance);
     add(f, radiance, b);
     if (segment) {
@@ -241,7 +237,7 @@ static void follow_ray(struct following *f, struct branch *b) {
     struct surface s;
     reference_surface(f->r, &ray, &hit, &s);
     reference_cross(f->r, &b->inside, &s);
-    b->tint = scaled(b->tint, reference_left(f->r, &b->inside, s.distance));
+    b->tint = vec3_times(b->tint, reference_left(f->r, &b->inside, s.distance));
     f->sample->body = s.body;
     f->sample->triangle = s.triangle;
     if (segment)

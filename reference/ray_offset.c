@@ -4,8 +4,7 @@
 // Displaced by the point's error, then one number outward (Pharr, Jakob, Humphreys 2023, section 6.8.6). Not
 // only by the error along the normal: that along the surface can carry the point across an edge.
 struct start reference_leave(const struct reference *r, const struct surface *s, vec3 side) {
-    vec3 size = {fabs(side.x), fabs(side.y), fabs(side.z)};
-    double distance = fmax(vec3_dot(size, s->error), vec3_max_abs(s->error));
+    double distance = fmax(vec3_dot(vec3_abs(side), s->error), vec3_max_abs(s->error));
     vec3 shift = vec3_mul(side, distance);
     vec3 at = vec3_add(s->point, shift);
     if (shift.x != 0)

@@ -10,10 +10,6 @@ static vec3 vertex(const struct primitive *p, int k) {
     return (vec3){p->v[k][0], p->v[k][1], p->v[k][2]};
 }
 
-static vec3 absolute(vec3 v) {
-    return (vec3){fabs(v.x), fabs(v.y), fabs(v.z)};
-}
-
 static vec3 weighted(const vec3 corners[3], const double b[3]) {
     return vec3_add(vec3_add(vec3_mul(corners[0], b[0]), vec3_mul(corners[1], b[1])),
                     vec3_mul(corners[2], b[2]));
@@ -96,8 +92,8 @@ static void sphere_surface(const struct reference *r, const struct ray *ray, con
     *arm = vec3_mul(outward, p->v[1][0]);
     s->point = vec3_add(centre, *arm);
     s->point = reference_rounded3(r, s->point, 0);
-    s->error = vec3_add(vec3_mul(absolute(*arm), reference_gamma(r, 5)),
-                        vec3_mul(absolute(s->point), reference_gamma(r, 1)));
+    s->error = vec3_add(vec3_mul(vec3_abs(*arm), reference_gamma(r, 5)),
+                        vec3_mul(vec3_abs(s->point), reference_gamma(r, 1)));
     turn_to_ray(s, outward, ray->direction);
     s->bend = (s->enters ? 1 : -1) / p->v[1][0];
 }
@@ -127,12 +123,12 @@ static void triangle_surface(const struct reference *r, const struct body *body,
     vec3 corners[3] = {vertex(p, 0), vertex(p, 1), vertex(p, 2)};
     vec3 sizes[3];
     for (int k = 0; k < 3; k++)
-        sizes[k] = absolute(corners[k]);
+        sizes[k] = vec3_abs(corners[k]);
     const double positive[3] = {fabs(b[0]), fabs(b[1]), fabs(b[2])};
     s->point = weighted(corners, b);
     s->point = reference_rounded3(r, s->point, vec3_max_abs(s->point));
     s->error =
-        vec3_mul(r->input.as_single ? absolute(s->point) : weighted(sizes, positive), reference_gamma(r, 7));
+        vec3_mul(r->input.as_single ? vec3_abs(s->point) : weighted(sizes, positive), reference_gamma(r, 7));
     const vec3 outward = reference_rounded3(r, exact_normal(p), 1);
     turn_to_ray(s, body->is->mirrored ? vec3_neg(outward) : outward, ray->direction);
     if (body->normals)

@@ -79,23 +79,12 @@ int scene_compare_media(const struct scene_material *a, const struct scene_mater
 struct medium {
     const struct scene_body *body;
     uint32_t number;
+    double begin; // along the axis that is swept
 };
 
-static double along(vec3 v, int axis) {
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
-static int by_x(const void *left, const void *right) {
+static int by_place(const void *left, const void *right) {
     const struct medium *a = left, *b = right;
-    return a->body->lower.x < b->body->lower.x ? -1 : a->body->lower.x > b->body->lower.x;
-}
-static int by_y(const void *left, const void *right) {
-    const struct medium *a = left, *b = right;
-    return a->body->lower.y < b->body->lower.y ? -1 : a->body->lower.y > b->body->lower.y;
-}
-static int by_z(const void *left, const void *right) {
-    const struct medium *a = left, *b = right;
-    return a->body->lower.z < b->body->lower.z ? -1 : a->body->lower.z > b->body->lower.z;
+    return compare_number(a->begin, b->begin);
 }
 
 static bool do_boxes_overlap(const struct scene_body *a, const struct scene_body *b) {
@@ -128,9 +117,9 @@ static int widest_axis(const struct medium *media, uint32_t count) {
     for (int axis = 0; axis < 3; axis++) {
         double low = INFINITY, high = -INFINITY, sizes = 0;
         for (uint32_t i = 0; i < count; i++) {
-            low = fmin(low, along(media[i].body->lower, axis));
-            high = fmax(high, along(media[i].body->upper, axis));
-            sizes += along(media[i].body->upper, axis) - along(media[i].body->lower, axis);
+            low = fmin(low, vec3_along(media[i].body->lower, axis));
+            high = fmax(high, vec3_along(media[i].body->upper, axis));
+            sizes += vec3_along(media[i].body->upper, axis) - vec3_along(media[i].body->lower, axis);
         }
         const double spread = sizes > 0 ? (high - low) / sizes : 0;
         best = spread > most ? axis : best;
@@ -143,12 +132,14 @@ static int widest_axis(const struct medium *media, uint32_t count) {
 static void find_overlap(struct medium *media, uint32_t count, struct scene_media_reason *out) {
     const int axis = widest_axis(media, count);
     uint64_t compared = 0;
-    qsort(media, count, sizeof *media, axis == 0 ? by_x : axis == 1 ? by_y : by_z);
+    for (uint32_t i = 0; i < count; i++)
+        media[i].begin = vec3_along(media[i].body->lower, axis);
+    qsort(media, count, sizeof *media, by_place);
     for (uint32_t i = 0; i < count; i++) {
         const struct medium *a = &media[i];
         for (uint32_t k = i + 1; k < count; k++) {
             const struct medium *b = &media[k];
-            if (along(b->body->lower, axis) >= along(a->body->upper, axis))
+            if (b->begin >= vec3_along(a->body->upper, axis))
                 break;
             if (may_overlap(a->body, b->body)) {
                 *out = (struct scene_media_reason){SCENE_MEDIA_OVERLAP, a->number, b->number};
@@ -176,7 +167,7 @@ bool scene_media_need(const struct scene *scene, struct scene_media_reason *out)
             *out = (struct scene_media_reason){SCENE_MEDIA_ATTENUATION, i, i};
             break;
         }
-        media[count++] = (struct medium){body, i};
+        media[count++] = (struct medium){.body = body, .number = i};
     }
     if (out->need == SCENE_MEDIA_APART && count > 1)
         find_overlap(media, count, out);

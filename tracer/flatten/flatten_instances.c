@@ -210,10 +210,6 @@ static enum flatten_fault make_mesh(struct flattening *f, struct shared_mesh *sh
 
 // ---- records
 
-static vec3 row_of(const mat3 *m, int i) {
-    return (vec3){m->m[i][0], m->m[i][1], m->m[i][2]};
-}
-
 // From flat space to a mesh's tree.
 static affine3 entry_map(const struct shared_mesh *shared, affine3 flat) {
     affine3 map = transform_inverse(flat);
@@ -250,9 +246,9 @@ static struct gpu_entry entry_of(const struct flattening *f, const struct shared
     const double inverse = INVERSE_UNITS * condition * UNIT64;
     const double unit = (RAY_UNITS * (f->out->is_double ? UNIT64 : UNIT) + inverse) * ABOVE;
     const double middle = ldexp(shared->farthest, shared->exponent);
-    return (struct gpu_entry){.row_x = row_of(&map.linear, 0),
-                              .row_y = row_of(&map.linear, 1),
-                              .row_z = row_of(&map.linear, 2),
+    return (struct gpu_entry){.row_x = mat3_row(map.linear, 0),
+                              .row_y = mat3_row(map.linear, 1),
+                              .row_z = mat3_row(map.linear, 2),
                               .offset_x = map.offset.x,
                               .offset_y = map.offset.y,
                               .offset_z = map.offset.z,

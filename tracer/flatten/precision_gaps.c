@@ -15,10 +15,6 @@ enum {
     MOST_PAIRS = 1 << 22,
 };
 
-static double component(vec3 v, int axis) {
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
 // ---- the distance between two bodies; NAN: unknown, or they touch
 
 static double between_boxes(const struct precision_body *a, const struct precision_body *b) {
@@ -154,8 +150,8 @@ static int widest_axis(const struct precision_body *bodies, uint32_t count) {
     for (int axis = 0; axis < 3; axis++) {
         double low = DBL_MAX, high = -DBL_MAX;
         for (uint32_t i = 0; i < count; i++) {
-            low = fmin(low, component(bodies[i].lower, axis));
-            high = fmax(high, component(bodies[i].lower, axis));
+            low = fmin(low, vec3_along(bodies[i].lower, axis));
+            high = fmax(high, vec3_along(bodies[i].lower, axis));
         }
         if (high - low > widest) {
             widest = high - low;
@@ -172,8 +168,8 @@ bool precision_gaps(const struct flat_input *input, const struct precision_body 
         return false;
     const int axis = widest_axis(bodies, count);
     for (uint32_t i = 0; i < count; i++)
-        order[i] = (struct swept){component(bodies[i].lower, axis),
-                                  component(bodies[i].upper, axis) + CLOSE * bodies[i].reach, i};
+        order[i] = (struct swept){vec3_along(bodies[i].lower, axis),
+                                  vec3_along(bodies[i].upper, axis) + CLOSE * bodies[i].reach, i};
     qsort(order, count, sizeof *order, compare_swept);
     uint32_t pairs = 0;
     for (uint32_t i = 0; i < count && out->all_pairs; i++)

@@ -79,10 +79,6 @@ static vec3 rows_size(const mat3 *m, vec3 v) {
     return (vec3){size[0], size[1], size[2]};
 }
 
-static vec3 absolute(vec3 v) {
-    return (vec3){fabs(v.x), fabs(v.y), fabs(v.z)};
-}
-
 struct precision_view precision_view_of(const struct flat_input *input, const affine3 *map,
                                         const struct mesh *mesh) {
     struct precision_view view = {.map = *map,
@@ -99,7 +95,7 @@ struct precision_view precision_view_of(const struct flat_input *input, const af
     }
     view.least = sqrt(fmax(least - ROUNDED * size, 0));
     view.most = sqrt(most * (1 + ROUNDED));
-    const vec3 farthest = vec3_max(absolute(mesh->lower), absolute(mesh->upper));
+    const vec3 farthest = vec3_max(vec3_abs(mesh->lower), vec3_abs(mesh->upper));
     view.slack = SLACK * (vec3_max_abs(rows_size(&map->linear, farthest)) + vec3_max_abs(map->offset) +
                           vec3_max_abs(view.camera));
     return view;
@@ -115,11 +111,11 @@ bool precision_is_beyond(const struct precision_view *view, const struct precisi
     const vec3 half = vec3_mul(vec3_sub(piece->upper, piece->lower), 0.5);
     const vec3 middle = affine3_apply(view->map, vec3_add(piece->lower, half));
     const vec3 around = rows_size(&view->map.linear, half);
-    const double reach = vec3_max_abs(vec3_add(absolute(middle), around)) + view->slack;
+    const double reach = vec3_max_abs(vec3_add(vec3_abs(middle), around)) + view->slack;
     const double shortest = piece->shortest * view->least - view->slack;
     if (!(shortest > edges->steps * (1 + ROUNDED) * reach * 0x1p-24))
         return false;
-    const vec3 gap = vec3_sub(absolute(vec3_sub(middle, view->camera)), around);
+    const vec3 gap = vec3_sub(vec3_abs(vec3_sub(middle, view->camera)), around);
     const double below = fmax(gap.x, fmax(gap.y, gap.z)) - view->slack;
     const double longest = piece->longest * view->most + view->slack;
     return below * PRECISION_HEIGHT_PART > heights->steps * (1 + ROUNDED) * longest * 0x1p-24;
