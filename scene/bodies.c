@@ -3,6 +3,7 @@
 #include "core/limits.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
+#include "scene/mesh_use.h"
 #include "scene/scene_parts.h"
 #include "scene/shape.h"
 #include "scene/transform.h"
@@ -143,27 +144,15 @@ void scene_check_reach(const struct scene *scene, struct diag_sink *sink) {
     }
 }
 
-struct triangle_use {
-    const struct mesh *mesh; // NULL: none
-    uint32_t body;
-};
-
-static int compare_uses(const void *a, const void *b) {
-    const struct triangle_use *x = a, *y = b;
-    if (x->mesh != y->mesh)
-        return (uintptr_t)x->mesh < (uintptr_t)y->mesh ? -1 : 1;
-    return x->body < y->body ? -1 : x->body > y->body;
-}
-
 static int compare_bodies(const void *a, const void *b) {
-    const struct triangle_use *x = a, *y = b;
+    const struct mesh_use *x = a, *y = b;
     return x->body < y->body ? -1 : x->body > y->body;
 }
 
 // The bodies that bring triangles: the first one of each mesh, and all without a mesh, in IR order.
-static uint32_t keep_first_uses(struct triangle_use *uses, uint32_t count) {
+static uint32_t keep_first_uses(struct mesh_use *uses, uint32_t count) {
     uint32_t kept = 0;
-    qsort(uses, count, sizeof *uses, compare_uses);
+    qsort(uses, count, sizeof *uses, mesh_use_compare);
     for (uint32_t i = 0; i < count; i++)
         if (!uses[i].mesh || kept == 0 || uses[kept - 1].mesh != uses[i].mesh)
             uses[kept++] = uses[i];
@@ -172,12 +161,12 @@ static uint32_t keep_first_uses(struct triangle_use *uses, uint32_t count) {
 }
 
 // The body whose triangles exceed `most`, those of a mesh counted once; NULL: none does.
-static const struct scene_body *first_over(const struct scene *scene, struct triangle_use *uses,
-                                           uint64_t most, uint64_t *total) {
+static const struct scene_body *first_over(const struct scene *scene, struct mesh_use *uses, uint64_t most,
+                                           uint64_t *total) {
     const struct scene_body *over = NULL;
     *total = 0;
     for (uint32_t i = 0; i < scene->body_count; i++)
-        uses[i] = (struct triangle_use){scene->bodies[i].mesh, i};
+        uses[i] = (struct mesh_use){scene->bodies[i].mesh, i};
     const uint32_t count = keep_first_uses(uses, scene->body_count);
     for (uint32_t i = 0; i < count; i++) {
         const struct scene_body *body = &scene->bodies[uses[i].body];
@@ -215,7 +204,7 @@ static bool check_items(const struct scene *scene, struct diag_sink *sink) {
 bool scene_check_triangles(const struct scene *scene, const struct limits *limits, struct diag_sink *sink) {
     const struct limit_info *info = limit_info(LIMIT_SCENE_TRIANGLES);
     const uint64_t most = limits->value[LIMIT_SCENE_TRIANGLES];
-    struct triangle_use *uses = heap_array((size_t)scene->body_count + 1, sizeof *uses);
+    struct mesh_use *uses = heap_array((size_t)scene->body_count + 1, sizeof *uses);
     uint64_t total = 0;
     if (!uses) {
         diag_add(sink, DIAG_OUT_OF_MEMORY, SPAN_NONE, "there is not enough memory for the scene's bodies");

@@ -1,6 +1,7 @@
 // What shading asks about a body: the coordinates of its checker, and its vertex normals.
 #include "core/heap.h"
 #include "core/parallel.h"
+#include "scene/mesh_use.h"
 #include "scene/shape.h"
 #include "tracer/flatten/flatten_parts.h"
 
@@ -12,10 +13,6 @@ enum {
 };
 
 // ---- body records
-
-static vec3 row(const mat3 *m, int i) {
-    return (vec3){m->m[i][0], m->m[i][1], m->m[i][2]};
-}
 
 static bool has_checker(const struct scene *scene, const struct scene_body *body) {
     for (uint32_t i = 0; i < body->group_count; i++)
@@ -30,9 +27,9 @@ static void put_map(const struct flattening *f, const struct scene_body *body, s
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++)
             own.linear.m[i][k] /= f->factor;
-    record->row_x = row(&own.linear, 0);
-    record->row_y = row(&own.linear, 1);
-    record->row_z = row(&own.linear, 2);
+    record->row_x = mat3_row(own.linear, 0);
+    record->row_y = mat3_row(own.linear, 1);
+    record->row_z = mat3_row(own.linear, 2);
     record->offset_x = own.offset.x;
     record->offset_y = own.offset.y;
     record->offset_z = own.offset.z;
@@ -67,21 +64,8 @@ enum flatten_fault flatten_body_records(struct flattening *f) {
 
 // ---- normals
 
-struct smooth_use {
-    const struct mesh *mesh;
-    uint32_t body;
-};
-
-static int compare_uses(const void *a, const void *b) {
-    const struct smooth_use *x = a;
-    const struct smooth_use *y = b;
-    if (x->mesh != y->mesh)
-        return (uintptr_t)x->mesh < (uintptr_t)y->mesh ? -1 : 1;
-    return x->body < y->body ? -1 : x->body > y->body;
-}
-
 // The smooth bodies, those of one mesh together, and the normal base of each in IR order.
-static enum flatten_fault list_uses(struct flattening *f, struct smooth_use **uses, uint32_t *count) {
+static enum flatten_fault list_uses(struct flattening *f, struct mesh_use **uses, uint32_t *count) {
     *count = 0;
     *uses = heap_array((size_t)f->scene->body_count + 1, sizeof **uses);
     if (!*uses)
@@ -100,10 +84,10 @@ static enum flatten_fault list_uses(struct flattening *f, struct smooth_use **us
             shared->has_normals = true;
             shared->normal_base = (uint32_t)normals;
         }
-        (*uses)[(*count)++] = (struct smooth_use){body->mesh, i};
+        (*uses)[(*count)++] = (struct mesh_use){body->mesh, i};
         normals += (uint64_t)body->triangle_count * 3;
     }
-    qsort(*uses, *count, sizeof **uses, compare_uses);
+    qsort(*uses, *count, sizeof **uses, mesh_use_compare);
     return flat_array_make(&f->out->normals, normals * f->out->strides.normal) ? FLATTEN_DONE
                                                                                : FLATTEN_NO_MEMORY;
 }
@@ -132,7 +116,7 @@ static void turn_normals(void *context, size_t begin, size_t end) {
 
 struct mesh_turning {
     struct flattening *f;
-    const struct smooth_use *uses; // of one mesh
+    const struct mesh_use *uses; // of one mesh
     uint32_t count;
     struct arena arena;
 };
@@ -156,7 +140,7 @@ static void turn_mesh(void *context) {
 }
 
 enum flatten_fault flatten_normals(struct flattening *f) {
-    struct smooth_use *uses = NULL;
+    struct mesh_use *uses = NULL;
     uint32_t count;
     enum flatten_fault fault = list_uses(f, &uses, &count);
     for (uint32_t begin = 0, end; fault == FLATTEN_DONE && begin < count; begin = end) {
