@@ -7,9 +7,7 @@ enum {
 };
 
 static char fold(char c) {
-    if (c >= 'A' && c <= 'Z')
-        return (char)(c - 'A' + 'a');
-    return c == '-' || c == ' ' ? '_' : c;
+    return c == '-' || c == ' ' ? '_' : char_lower(c);
 }
 
 static unsigned least(unsigned a, unsigned b) {

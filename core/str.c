@@ -24,16 +24,12 @@ bool str_starts_with(str s, str prefix) {
     return s.len >= prefix.len && str_equal(str_slice(s, 0, prefix.len), prefix);
 }
 
-static char ascii_lower(char c) {
-    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
-}
-
 bool str_ends_with_nocase(str s, const char *suffix) {
     size_t n = strlen(suffix);
     if (s.len < n)
         return false;
     for (size_t i = 0; i < n; i++)
-        if (ascii_lower(s.ptr[s.len - n + i]) != ascii_lower(suffix[i]))
+        if (char_lower(s.ptr[s.len - n + i]) != char_lower(suffix[i]))
             return false;
     return true;
 }

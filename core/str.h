@@ -32,6 +32,19 @@ static inline bool char_is_blank(char c) {
 static inline bool char_is_space(char c) {
     return char_is_blank(c) || char_is_break(c);
 }
+static inline bool char_is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+// The value of a hexadecimal digit; -1: another character.
+static inline int char_hex(char c) {
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+}
+static inline char char_lower(char c) {
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
 // Bytes of the line end at `at`: LF, CR or both.
 static inline size_t str_break_length(str s, size_t at) {
     return s.ptr[at] == '\r' && at + 1 < s.len && s.ptr[at + 1] == '\n' ? 2 : 1;

@@ -163,7 +163,7 @@ static void result(struct json_writer *w, const struct report_item *item, uint32
 static void put_rule_name(struct strbuf *out, const char *name) {
     bool begins = true;
     for (; *name; name++) {
-        char lower = *name >= 'A' && *name <= 'Z' ? (char)(*name - 'A' + 'a') : *name;
+        char lower = char_lower(*name);
         if (*name != '_')
             strbuf_char(out, begins ? *name : lower);
         begins = *name == '_';
@@ -178,7 +178,7 @@ static void help_address(struct json_writer *w, const char *home, const char *co
     strbuf_init(&text);
     strbuf_format(&text, "%s/docs/codes.md#", home);
     for (; *code; code++)
-        strbuf_char(&text, *code >= 'A' && *code <= 'Z' ? (char)(*code - 'A' + 'a') : *code);
+        strbuf_char(&text, char_lower(*code));
     json_write_text(w, "helpUri", strbuf_view(&text));
     w->out->failed = w->out->failed || text.failed;
     strbuf_finish(&text);

@@ -532,12 +532,8 @@ str files_suggest(struct files *files, str path, const char *const *endings) {
     return arena_copy(files->arena, str_from(best));
 }
 
-static bool is_letter(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
 str files_advice(struct arena *arena, str path) {
-    if (path.len > 2 && is_letter(path.ptr[0]) && path.ptr[1] == ':')
+    if (path.len > 2 && char_is_letter(path.ptr[0]) && path.ptr[1] == ':')
         return STR("paths are relative to the file that contains them, with '/' between folders");
     if (path.len && path.ptr[0] == '~')
         return STR("'~' is not expanded: paths are relative to the file that contains them");

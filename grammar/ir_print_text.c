@@ -8,9 +8,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool is_alpha(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
 // Words that some version of YAML reads as a boolean or as null, in any case.
 static bool is_reserved(str text) {
     static const char *const words[] = {"y",    "n",     "yes",  "no",  "on",  "off",
@@ -41,7 +38,7 @@ static bool has_odd(str text, const char *but) {
 
 static bool begins_plain(str text) {
     char c = text.ptr[0];
-    if (is_alpha(c) || c == '_' || c == '/' || (unsigned char)c >= 0x80)
+    if (char_is_letter(c) || c == '_' || c == '/' || (unsigned char)c >= 0x80)
         return true;
     return str_starts_with(text, STR("./")) || str_starts_with(text, STR("../"));
 }
@@ -51,7 +48,7 @@ static bool is_plain(str text, bool in_flow) {
         return false;
     for (size_t i = 0; i < text.len; i++) {
         char c = text.ptr[i];
-        bool usual = is_alpha(c) || char_is_digit(c) || (unsigned char)c >= 0x80;
+        bool usual = char_is_letter(c) || char_is_digit(c) || (unsigned char)c >= 0x80;
         if (c == '\0' || !(usual || strchr(in_flow ? "_-./ +()" : "_-./ +(),;'!?=", c)))
             return false;
     }

@@ -197,13 +197,6 @@ json_t *position_string(str text) {
     return string ? string : json_string("");
 }
 
-static int hex_digit(char c) {
-    if (c >= '0' && c <= '9')
-        return c - '0';
-    c |= 0x20;
-    return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
-}
-
 str position_path(struct arena *arena, const char *uri) {
     static const char scheme[] = "file://";
     if (strncmp(uri, scheme, sizeof scheme - 1) != 0)
@@ -214,8 +207,8 @@ str position_path(struct arena *arena, const char *uri) {
     char *path = arena_alloc(arena, strlen(from) + 1);
     size_t length = 0;
     while (*from && *from != '?' && *from != '#') {
-        int high = *from == '%' ? hex_digit(from[1]) : -1;
-        int low = high >= 0 ? hex_digit(from[2]) : -1;
+        int high = *from == '%' ? char_hex(from[1]) : -1;
+        int low = high >= 0 ? char_hex(from[2]) : -1;
         path[length++] = low >= 0 ? (char)(high << 4 | low) : *from;
         from += low >= 0 ? 3 : 1;
     }

@@ -51,13 +51,6 @@ bool gltf_decode_data(str uri, struct arena *arena, str *bytes, str *mime) {
     return decode_base64(str_slice(uri, at + 1, uri.len), arena, bytes);
 }
 
-static int hex_of(char c) {
-    return c >= '0' && c <= '9'   ? c - '0'
-           : c >= 'a' && c <= 'f' ? c - 'a' + 10
-           : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                  : -1;
-}
-
 str gltf_decode_uri(str uri, struct arena *arena) {
     if (!memchr(uri.ptr, '%', uri.len))
         return uri;
@@ -65,7 +58,8 @@ str gltf_decode_uri(str uri, struct arena *arena) {
     size_t length = 0;
     for (size_t at = 0; at < uri.len; at++) {
         const bool is_code = uri.ptr[at] == '%' && at + 2 < uri.len;
-        const int high = is_code ? hex_of(uri.ptr[at + 1]) : -1, low = is_code ? hex_of(uri.ptr[at + 2]) : -1;
+        const int high = is_code ? char_hex(uri.ptr[at + 1]) : -1,
+                  low = is_code ? char_hex(uri.ptr[at + 2]) : -1;
         const bool is_good = high >= 0 && low >= 0 && high + low > 0; // a path has no NUL
         out[length++] = is_good ? (char)(16 * high + low) : uri.ptr[at];
         at += is_good ? 2 : 0;

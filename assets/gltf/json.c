@@ -58,17 +58,13 @@ static json_index add(struct reading *r, enum json_kind kind, size_t begin) {
     return json->nodes.count++;
 }
 
-static bool is_hex(char c) {
-    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
-}
-
 static bool skip_escape(struct reading *r) {
     const size_t begin = r->at++;
     const char c = peek(r);
     if (c == 'u') {
         for (int i = 0; i < 4; i++) {
             r->at++;
-            if (!is_hex(peek(r)))
+            if (char_hex(peek(r)) < 0)
                 return fail(r, begin, r->at + 1, "'\\u' needs four hexadecimal digits");
         }
     } else if (c == '\0' || !memchr("\"\\/bfnrt", c, 8)) {

@@ -14,12 +14,8 @@ enum {
 static const double powers_of_ten[DIGITS_MOST + 1] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                                       1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
-static inline bool is_space(char c) {
-    return c == ' ' || c == '\t';
-}
-
 static inline bool ends_word(const char *p, const char *end) {
-    return p == end || is_space(*p) || *p == '\n' || *p == '\r';
+    return p == end || char_is_space(*p);
 }
 
 // Whether every \r comes before a \n, and no backslash before either.
@@ -67,7 +63,7 @@ static inline enum line_kind kind_of(const char *p, const char *end) {
 }
 
 static inline const char *skip_spaces(const char *p, const char *end) {
-    while (p < end && is_space(*p))
+    while (p < end && char_is_blank(*p))
         p++;
     return p;
 }
@@ -85,7 +81,7 @@ static const char *next_line(const char *p, const char *end, uint32_t *lines) {
 static const char *count_words(const char *p, const char *end, uint32_t *words) {
     bool in_word = true;
     for (; p < end && *p != '\n' && *p != '\r'; p++) {
-        const bool is_word = !is_space(*p);
+        const bool is_word = !char_is_blank(*p);
         if (is_word && !in_word) {
             if (*p == '#')
                 break;

@@ -7,13 +7,9 @@ void obj_lex_init(struct obj_lex *lex, str text) {
         .begin = text.ptr, .end = text.ptr + text.len, .at = text.ptr + str_skip_mark(text), .line = 1};
 }
 
-static bool is_line_end(char c) {
-    return c == '\n' || c == '\r';
-}
-
 // Length of the line end at `p`, 0 if there is none.
 static size_t line_end_length(const char *p, const char *end) {
-    if (p == end || !is_line_end(*p))
+    if (p == end || !char_is_break(*p))
         return 0;
     return *p == '\r' && p + 1 < end && p[1] == '\n' ? 2 : 1;
 }
@@ -33,7 +29,7 @@ bool obj_lex_more(struct obj_lex *lex) {
             lex->at++;
         size_t length = continuation_length(lex->at, lex->end);
         if (length == 0)
-            return lex->at < lex->end && !is_line_end(*lex->at) && *lex->at != '#';
+            return lex->at < lex->end && !char_is_break(*lex->at) && *lex->at != '#';
         lex->at += length;
         lex->line++;
     }
@@ -43,7 +39,7 @@ void obj_lex_next_line(struct obj_lex *lex) {
     // A comment ends with its line, whatever its last character is.
     bool is_comment = lex->at < lex->end && *lex->at == '#';
     for (;;) {
-        while (lex->at < lex->end && !is_line_end(*lex->at))
+        while (lex->at < lex->end && !char_is_break(*lex->at))
             lex->at++;
         if (lex->at == lex->end)
             return;
@@ -56,7 +52,7 @@ void obj_lex_next_line(struct obj_lex *lex) {
 }
 
 static bool ends_word(const char *p, const char *end) {
-    return p == end || *p == ' ' || *p == '\t' || is_line_end(*p) || continuation_length(p, end);
+    return p == end || *p == ' ' || *p == '\t' || char_is_break(*p) || continuation_length(p, end);
 }
 
 bool obj_lex_word_ends(const struct obj_lex *lex) {
@@ -72,7 +68,7 @@ str obj_lex_word(struct obj_lex *lex) {
 
 str obj_lex_rest(struct obj_lex *lex) {
     const char *begin = lex->at;
-    while (lex->at < lex->end && !is_line_end(*lex->at) && !continuation_length(lex->at, lex->end))
+    while (lex->at < lex->end && !char_is_break(*lex->at) && !continuation_length(lex->at, lex->end))
         lex->at++;
     return str_trim((str){begin, (size_t)(lex->at - begin)});
 }

@@ -7,14 +7,10 @@
 
 // ---- text
 
-static bool is_line_end(char c) {
-    return c == '\n' || c == '\r';
-}
-
 static bool more_words(struct ply_cursor *c) {
     while (c->at < c->end && char_is_blank(*c->at))
         c->at++;
-    return c->at < c->end && !is_line_end(*c->at);
+    return c->at < c->end && !char_is_break(*c->at);
 }
 
 static str take_word(struct ply_cursor *c) {
@@ -32,7 +28,7 @@ static void take_line_end(struct ply_cursor *c) {
 }
 
 static void skip_line(struct ply_cursor *c) {
-    while (c->at < c->end && !is_line_end(*c->at))
+    while (c->at < c->end && !char_is_break(*c->at))
         c->at++;
     take_line_end(c);
 }

@@ -65,7 +65,7 @@ static void put_anchor(struct strbuf *out, const char *heading) {
         if (*c == ' ')
             strbuf_char(out, '-');
         else if (*c != ',')
-            strbuf_char(out, *c >= 'A' && *c <= 'Z' ? (char)(*c - 'A' + 'a') : *c);
+            strbuf_char(out, char_lower(*c));
 }
 
 static bool begins_chapter(const struct concept *concept) {

@@ -242,10 +242,6 @@ static void explain_element(struct explainer *e, const struct schema_element *sc
 
 // ---- what is meant
 
-static char folded(char c) {
-    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
-}
-
 // Whether two names differ in style only: LookAt, look_at, look-at, lookat.
 static bool is_called(str name, const char *known) {
     size_t at = 0;
@@ -256,7 +252,7 @@ static bool is_called(str name, const char *known) {
             known++;
         if (at == name.len || !*known)
             return at == name.len && !*known;
-        if (folded(name.ptr[at]) != folded(*known))
+        if (char_lower(name.ptr[at]) != char_lower(*known))
             return false;
     }
 }
@@ -352,9 +348,10 @@ static void put_snake(struct strbuf *out, str what) {
     for (size_t i = 0; i < what.len; i++) {
         char c = what.ptr[i];
         char before = i ? what.ptr[i - 1] : '_';
-        if (folded(c) != c && folded(before) == before && before != '_' && before != '-' && before != ' ')
+        if (char_lower(c) != c && char_lower(before) == before && before != '_' && before != '-' &&
+            before != ' ')
             strbuf_char(out, '_');
-        strbuf_char(out, c == '-' || c == ' ' ? '_' : folded(c));
+        strbuf_char(out, c == '-' || c == ' ' ? '_' : char_lower(c));
     }
 }
 

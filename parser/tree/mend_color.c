@@ -8,14 +8,10 @@
 bool mend_hex_digits(str digits, uint32_t *value) {
     *value = 0;
     for (size_t i = 0; i < digits.len; i++) {
-        char c = digits.ptr[i];
-        uint32_t digit = c >= '0' && c <= '9'   ? (uint32_t)(c - '0')
-                         : c >= 'a' && c <= 'f' ? (uint32_t)(c - 'a') + 10
-                         : c >= 'A' && c <= 'F' ? (uint32_t)(c - 'A') + 10
-                                                : 16;
-        if (digit == 16)
+        const int digit = char_hex(digits.ptr[i]);
+        if (digit < 0)
             return false;
-        *value = *value << 4 | digit;
+        *value = *value << 4 | (uint32_t)digit;
     }
     return true;
 }

@@ -28,14 +28,10 @@ static bool is_character(str name) {
     if (at >= name.len)
         return false;
     for (; at < name.len && value <= 0x10FFFF; at++) {
-        char c = name.ptr[at];
-        uint32_t digit = c >= '0' && c <= '9'          ? (uint32_t)(c - '0')
-                         : hex && c >= 'a' && c <= 'f' ? (uint32_t)(c - 'a' + 10)
-                         : hex && c >= 'A' && c <= 'F' ? (uint32_t)(c - 'A' + 10)
-                                                       : UINT32_MAX;
-        if (digit == UINT32_MAX)
+        const int digit = char_hex(name.ptr[at]);
+        if (digit < 0 || (!hex && digit > 9))
             return false;
-        value = value * (hex ? 16 : 10) + digit;
+        value = value * (hex ? 16 : 10) + (uint32_t)digit;
     }
     return (value >= 0x20 && value <= 0xD7FF) || (value >= 0xE000 && value <= 0xFFFD) ||
            (value >= 0x10000 && value <= 0x10FFFF) || value == '\t' || value == '\n' || value == '\r';

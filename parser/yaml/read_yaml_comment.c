@@ -2,10 +2,6 @@
 
 #include <string.h>
 
-static bool is_hex(char c) {
-    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
-}
-
 static bool is_schema_line(str comment) {
     str body = str_trim(str_slice(comment, 1, comment.len));
     return str_starts_with(body, STR("yaml-language-server:"));
@@ -105,7 +101,7 @@ bool yaml_comment_color(const struct yaml_reader *r, uint32_t at, struct reader_
     if (at >= text.len || text.ptr[at] != '#')
         return false;
     uint32_t end = at + 1;
-    while (end < text.len && is_hex(text.ptr[end]))
+    while (end < text.len && char_hex(text.ptr[end]) >= 0)
         end++;
     uint32_t digits = end - at - 1;
     bool ends = end == text.len || char_is_space(text.ptr[end]) || memchr(",]}", text.ptr[end], 3) != NULL;

@@ -236,8 +236,22 @@ static void finds_the_line_end_of_most_lines(void **state) {
     assert_int_equal(str_skip_mark(STR("\xEF\xBB")), 0);
 }
 
+static void letters_and_digits(void **state) {
+    (void)state;
+    static const char digits[] = "0123456789abcdef", capitals[] = "ABCDEF";
+    for (int i = 0; i < 256; i++) {
+        const char c = (char)i;
+        const char *digit = c ? strchr(digits, c) : NULL, *capital = c ? strchr(capitals, c) : NULL;
+        assert_int_equal(char_hex(c), digit ? digit - digits : capital ? capital - capitals + 10 : -1);
+        const bool is_capital = i >= 'A' && i <= 'Z';
+        assert_int_equal(char_is_letter(c), is_capital || (i >= 'a' && i <= 'z'));
+        assert_int_equal(char_lower(c), (char)(is_capital ? i + 32 : i));
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(letters_and_digits),
         cmocka_unit_test(compares),
         cmocka_unit_test(slices_and_trims),
         cmocka_unit_test(blanks_and_line_ends),
