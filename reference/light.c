@@ -1,12 +1,11 @@
 // Where light comes from: lights with their shadows, and the background (docs/language.md, "Hit" and
 // "Background").
 #include "core/angle.h"
+#include "core/float_bits.h"
 #include "core/srgb.h"
 #include "reference/parts.h"
 
 #include "grammar/ir.h"
-
-#include <string.h>
 
 // Less than the smallest normal float adds nothing that a picture could hold: tails of highlights.
 #define LEAST_LIGHT 0x1p-126
@@ -200,12 +199,6 @@ static uint32_t share_at(const uint32_t *begin, uint32_t count, size_t apart, ui
     return low;
 }
 
-static double float_of(uint32_t bits) {
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return (double)value;
-}
-
 // Where the sample looks (scene/sky.h); its emission is that of a light in this direction.
 static vec3 look_up(const struct reference *r, const struct points *points, uint32_t key, vec3 *l) {
     const struct sky_size size = r->sky;
@@ -218,7 +211,8 @@ static vec3 look_up(const struct reference *r, const struct points *points, uint
     const uint32_t *cells = r->sky_numbers + (size_t)SKY_ROW_WORDS * size.rows + (size_t)row * size.stride;
     const uint32_t column = share_at(cells, size.width, 1, a, &end);
     const double high = row_end - record[0], wide = end - cells[column];
-    const double step = float_of(record[2]), gap = float_of(record[1]) + (b - record[0]) / high * step;
+    const double step = (double)float_of_bits(record[2]),
+                 gap = (double)float_of_bits(record[1]) + (b - record[0]) / high * step;
     const double longitude = 2 * PI * ((column + 0.5 + (a - cells[column]) / wide) / size.width - 0.5);
     const double level = sqrt(fmax(0, gap * (2 - gap)));
     const double x = level * cos(longitude), z = level * sin(longitude);

@@ -1,6 +1,7 @@
 #include "scene/sky.h"
 
 #include "core/angle.h"
+#include "core/float_bits.h"
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "core/srgb.h"
@@ -8,7 +9,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum {
     PIECE_ROWS = 16,
@@ -40,12 +40,6 @@ static double gap_of(double angle, bool above) {
     return 2 * half * half;
 }
 
-static uint32_t bits_of(float value) {
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
 // The polar angle at which a row of cells begins.
 static double angle_of(const struct filling *f, uint32_t row) {
     if (row == 0)
@@ -60,8 +54,8 @@ static double put_place(const struct filling *f, uint32_t row) {
     const float gap = (float)gap_of(begin, above);
     const float step = (float)(gap_of(end, above) - gap_of(begin, above));
     uint32_t *record = f->numbers + (size_t)SKY_ROW_WORDS * row;
-    record[1] = bits_of(gap);
-    record[2] = bits_of(step);
+    record[1] = float_bits(gap);
+    record[2] = float_bits(step);
     return fabs((double)step) / 2;
 }
 

@@ -6,6 +6,7 @@
 #ifndef GLINT_TRACER_GPU_RECORDS_H
 #define GLINT_TRACER_GPU_RECORDS_H
 
+#include "core/float_bits.h"
 #include "core/vec3.h"
 #include "shaders/gpu_scene.h"
 #include "shaders/records.h"
@@ -45,13 +46,8 @@ static inline void gpu_pack_double(struct gpu_word *words, uint32_t word, uint32
 }
 // What TRIANGLE_REST says: bits of a double cut off after those of a float, and the rest.
 static inline void gpu_pack_split(struct gpu_word *words, uint32_t word, uint32_t part, double value) {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    const uint64_t rest = bits & ((UINT64_C(1) << SPLIT_BITS) - 1);
-    const uint64_t cut = bits - rest;
-    double first;
-    memcpy(&first, &cut, sizeof first);
-    gpu_pack_float(words, word, part, first);
+    const uint64_t bits = double_bits(value), rest = bits & ((UINT64_C(1) << SPLIT_BITS) - 1);
+    gpu_pack_float(words, word, part, double_of_bits(bits - rest));
     gpu_pack_uint(words, word + TRIANGLE_REST, part, (uint32_t)rest);
 }
 static inline void gpu_pack_split3(struct gpu_word *words, uint32_t word, vec3 value) {
@@ -61,12 +57,7 @@ static inline void gpu_pack_split3(struct gpu_word *words, uint32_t word, vec3 v
 }
 // The number again that gpu_pack_split packed.
 static inline double gpu_split_value(float first, uint32_t rest) {
-    double value = first;
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    bits |= rest;
-    memcpy(&value, &bits, sizeof value);
-    return value;
+    return double_of_bits(double_bits(first) | rest);
 }
 static inline void gpu_pack_double3(struct gpu_word *words, uint32_t word, vec3 value) {
     const double numbers[3] = {value.x, value.y, value.z};

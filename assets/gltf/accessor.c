@@ -1,9 +1,9 @@
 // What accessors hold: numbers of any type, with their sparse values, and the corners of triangles.
 #include "assets/gltf/parts.h"
+#include "core/float_bits.h"
 #include "core/heap.h"
 
 #include <math.h>
-#include <string.h>
 
 // ---- numbers
 
@@ -23,7 +23,6 @@ static uint32_t whole_at(const char *at, unsigned component) {
 
 static double number_at(const char *at, unsigned component, bool normalized) {
     const uint32_t bits = whole_at(at, component);
-    float number;
     switch (component) {
     case GLTF_INT8:
         return normalized ? fmax((int8_t)bits / 127.0, -1) : (int8_t)bits;
@@ -36,8 +35,7 @@ static double number_at(const char *at, unsigned component, bool normalized) {
     case GLTF_UINT32:
         return bits;
     default:
-        memcpy(&number, &bits, sizeof number);
-        return (double)number;
+        return (double)float_of_bits(bits);
     }
 }
 

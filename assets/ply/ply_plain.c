@@ -1,7 +1,8 @@
 #include "assets/ply/ply_plain.h"
 
+#include "core/float_bits.h"
+
 #include <math.h>
-#include <string.h>
 
 static uint32_t load(const char *at, bool is_big) {
     const unsigned char *b = (const unsigned char *)at;
@@ -12,10 +13,7 @@ static uint32_t load(const char *at, bool is_big) {
 }
 
 static double load_float(const char *at, bool is_big) {
-    const uint32_t bits = load(at, is_big);
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return (double)value;
+    return (double)float_of_bits(load(at, is_big));
 }
 
 bool ply_plain_vertices(const struct ply_element *element, enum ply_form form, const uint8_t *column_of,

@@ -1,9 +1,9 @@
 #include "assets/ply/ply_rows.h"
 
 #include "assets/file/mesh_number.h"
+#include "core/float_bits.h"
 
 #include <math.h>
-#include <string.h>
 
 // ---- text
 
@@ -62,15 +62,9 @@ static uint32_t load32(const char *at, bool is_big) {
 }
 
 static double binary_number(const char *at, enum ply_type type, bool is_big) {
-    float single;
-    double number;
-    uint64_t bits;
-    uint32_t word;
     switch (type) {
     case PLY_FLOAT32:
-        word = load32(at, is_big);
-        memcpy(&single, &word, sizeof single);
-        return (double)single;
+        return (double)float_of_bits(load32(at, is_big));
     case PLY_INT32:
         return (int32_t)load32(at, is_big);
     case PLY_UINT32:
@@ -88,9 +82,7 @@ static double binary_number(const char *at, enum ply_type type, bool is_big) {
     case PLY_UINT64:
         return (double)load(at, 8, is_big);
     default:
-        bits = load(at, 8, is_big);
-        memcpy(&number, &bits, sizeof number);
-        return number;
+        return double_of_bits(load(at, 8, is_big));
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "assets/stl/stl_text.h"
 #include "assets/stl/weld.h"
+#include "core/float_bits.h"
 #include "grammar/mesh_format.h"
 
 #include <math.h>
@@ -49,13 +50,6 @@ struct binary {
     uint32_t colors; // of them have attributes
 };
 
-static float load_coordinate(const char *at) {
-    const uint32_t bits = load32(at);
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
 static bool is_fine(float coordinate) {
     return fabsf(coordinate) <= (float)MESH_COORDINATE_MAX;
 }
@@ -64,10 +58,10 @@ static bool is_fine(float coordinate) {
 static void report_facet(struct binary *b, uint32_t facet, const char *at) {
     for (int i = 0; i < WELD_FLOATS; i++) {
         const char *place = at + NORMAL_BYTES + 4 * (size_t)i;
-        if (is_fine(load_coordinate(place)))
+        if (is_fine(float_of_bits(load32(place))))
             continue;
         asset_report_byte(b->file, DIAG_MESH_NUMBER, (uint64_t)(place - b->file->text.ptr),
-                          "%.9g in facet %u is not a number up to 1e18", (double)load_coordinate(place),
+                          "%.9g in facet %u is not a number up to 1e18", (double)float_of_bits(load32(place)),
                           facet + 1);
         i += 2 - i % 3;
     }
@@ -85,7 +79,7 @@ static bool read_positions(struct binary *b, uint32_t begin, uint32_t end) {
         faces[facet] = (struct polygon_face){.first = 3 * facet, .line = facet + 1};
         colors += (at[FACET_BYTES - 2] | at[FACET_BYTES - 1]) != 0;
         for (int i = 0; i < WELD_FLOATS; i++) {
-            positions[i] = load_coordinate(at + NORMAL_BYTES + 4 * (size_t)i) + 0.0F;
+            positions[i] = float_of_bits(load32(at + NORMAL_BYTES + 4 * (size_t)i)) + 0.0F;
             fine &= is_fine(positions[i]);
         }
     }

@@ -1,9 +1,8 @@
 // Portable float maps: "PF", width, height, scale whose sign gives the byte order, then rows from the bottom.
+#include "core/float_bits.h"
 #include "core/heap.h"
 #include "core/number.h"
 #include "picture/metrics/picture_file.h"
-
-#include <string.h>
 
 enum {
     FLOAT_BYTES = 4,
@@ -30,11 +29,9 @@ static bool read_side(str word, uint32_t *side) {
 
 static float read_float(const unsigned char *p, bool little) {
     uint32_t bits = 0;
-    float value;
     for (int k = 0; k < FLOAT_BYTES; k++)
         bits |= (uint32_t)p[k] << (8 * (little ? k : FLOAT_BYTES - 1 - k));
-    memcpy(&value, &bits, sizeof value);
-    return value;
+    return float_of_bits(bits);
 }
 
 const char *pfm_decode(str bytes, uint64_t most_bytes, struct picture_file *out) {

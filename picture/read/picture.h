@@ -8,6 +8,8 @@
 #ifndef GLINT_PICTURE_READ_PICTURE_H
 #define GLINT_PICTURE_READ_PICTURE_H
 
+#include "core/float_bits.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -60,12 +62,9 @@ static inline float picture_rgbe_scale(uint8_t exponent) {
         LEAST_NORMAL = 10, // 2^-126: below, a float has a 1 in its fraction instead of an exponent
         BIAS = 136 - 127,
     };
-    uint32_t bits = exponent == 0              ? 0
-                    : exponent >= LEAST_NORMAL ? (uint32_t)(exponent - BIAS) << 23
-                                               : UINT32_C(1) << (exponent + 149 - 136);
-    float scale;
-    memcpy(&scale, &bits, sizeof scale);
-    return scale;
+    return float_of_bits(exponent == 0              ? 0
+                         : exponent >= LEAST_NORMAL ? (uint32_t)(exponent - BIAS) << 23
+                                                    : UINT32_C(1) << (exponent + 149 - 136));
 }
 
 // The value of a channel (0 to 2) of pixel `at`, where picture_is_linear.

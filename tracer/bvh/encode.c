@@ -1,12 +1,12 @@
 #include "tracer/bvh/encode.h"
 
+#include "core/float_bits.h"
 #include "shaders/gpu_scene.h"
 #include "shaders/records.h"
 #include "tracer/bvh/round.h"
 
 #include <assert.h>
 #include <math.h>
-#include <string.h>
 
 static_assert(NODE_WORDS == 5, "the words below");
 
@@ -30,16 +30,12 @@ static double larger(double a, double b) {
 
 // 2^exponent, a normal number.
 static double power_of_two(int exponent) {
-    const uint64_t bits = (uint64_t)(exponent + DOUBLE_BIAS) << DOUBLE_DIGITS;
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
+    return double_of_bits((uint64_t)(exponent + DOUBLE_BIAS) << DOUBLE_DIGITS);
 }
 
 // The least exponent whose power of two is not below a positive normal number.
 static int exponent_above(double value) {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
+    const uint64_t bits = double_bits(value);
     const bool is_power = !(bits << (64 - DOUBLE_DIGITS));
     return (int)(bits >> DOUBLE_DIGITS) - DOUBLE_BIAS + !is_power;
 }
@@ -68,12 +64,6 @@ static struct axis_grid axis_grid_make(double lower, double upper) {
         if ((upper + widening(exponent) - origin) * power_of_two(-exponent) <= 255)
             return (struct axis_grid){origin, exponent};
     }
-}
-
-static uint32_t float_bits(float value) {
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
 }
 
 static void put_byte(uint32_t pair[2], int slot, uint32_t byte) {

@@ -1,4 +1,5 @@
 // Trees that are put together: their nodes moved, and a tree whose leaves become nodes themselves.
+#include "core/float_bits.h"
 #include "tracer/bvh/bvh.h"
 
 #include "core/heap.h"
@@ -32,12 +33,6 @@ static bool is_inner(const struct gpu_word *node, int slot) {
 
 // ---- bounds
 
-static double float_of(uint32_t bits) {
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return (double)value;
-}
-
 static struct bvh_bounds child_bounds(const struct gpu_word *node, int slot) {
     const uint32_t corner[3] = {node[0].x, node[0].y, node[0].z};
     const uint32_t low[3][2] = {{node[2].x, node[2].y}, {node[2].z, node[2].w}, {node[3].x, node[3].y}};
@@ -45,8 +40,10 @@ static struct bvh_bounds child_bounds(const struct gpu_word *node, int slot) {
     struct bvh_bounds bounds;
     for (int axis = 0; axis < 3; axis++) {
         const double cell = ldexp(1, (int)(node[0].w >> (8 * axis) & 0xff) - EXPONENT_BIAS);
-        bounds.lower[axis] = float_of(corner[axis]) + cell * byte_of(low[axis][0], low[axis][1], slot);
-        bounds.upper[axis] = float_of(corner[axis]) + cell * byte_of(high[axis][0], high[axis][1], slot);
+        bounds.lower[axis] =
+            (double)float_of_bits(corner[axis]) + cell * byte_of(low[axis][0], low[axis][1], slot);
+        bounds.upper[axis] =
+            (double)float_of_bits(corner[axis]) + cell * byte_of(high[axis][0], high[axis][1], slot);
     }
     return bounds;
 }

@@ -2,8 +2,7 @@
 #ifndef GLINT_TRACER_BVH_ROUND_H
 #define GLINT_TRACER_BVH_ROUND_H
 
-#include <stdint.h>
-#include <string.h>
+#include "core/float_bits.h"
 
 // The largest float that is not above a finite `value`; the magnitudes of floats are in the order of their
 // bits.
@@ -11,14 +10,10 @@ static inline float float_below(double value) {
     const float rounded = (float)value;
     if (!((double)rounded > value))
         return rounded;
-    int32_t bits;
-    memcpy(&bits, &rounded, sizeof bits);
+    const uint32_t bits = float_bits(rounded);
     if (bits == 0)
         return -0x1p-149f;
-    bits += bits < 0 ? 1 : -1;
-    float below;
-    memcpy(&below, &bits, sizeof below);
-    return below;
+    return float_of_bits(bits >> 31 ? bits + 1 : bits - 1);
 }
 
 #endif

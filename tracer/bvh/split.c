@@ -1,5 +1,7 @@
 #include "tracer/bvh/split.h"
 
+#include "core/float_bits.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -223,9 +225,7 @@ uint32_t split_items(struct bvh_item *items, uint32_t count, const struct bvh_bo
 
 // The bits of a float, ordered as the floats are.
 static uint32_t middle_key(const struct bvh_item *item, int axis) {
-    float middle = item_middle(item, axis) + 0.0f; // no negative zero
-    uint32_t bits;
-    memcpy(&bits, &middle, sizeof bits);
+    const uint32_t bits = float_bits(item_middle(item, axis) + 0.0f); // no negative zero
     return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
 }
 

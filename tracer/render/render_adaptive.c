@@ -6,6 +6,7 @@
 // small. A pixel goes on where its own error, that of the 3 x 3 pixels around it within its tile, or what is
 // rare in the tile is above the bound: so pixels that look even by chance go on with their neighbours, and
 // what a pixel does depends on nothing outside its tile.
+#include "core/float_bits.h"
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "scene/points.h"
@@ -88,7 +89,7 @@ static void take_sums(struct band *band, int group) {
     for (uint32_t i = 0; i < band->count; i++) {
         const uint32_t slot = band->list[i], *words = renderer->band + 4 * (size_t)slot;
         for (int k = 0; k < 3; k++)
-            band->sums[slot][group][k] += renderer_float(words[k]);
+            band->sums[slot][group][k] += float_of_bits(words[k]);
         if (band->faults[slot] >> FAULT_KIND_SHIFT == FAULT_NONE)
             band->faults[slot] = words[3];
     }

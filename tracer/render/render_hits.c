@@ -1,4 +1,5 @@
 // What every pixel's first ray hits: a dispatch a band and kind of ray, and the way to bodies and pixels.
+#include "core/float_bits.h"
 #include "core/heap.h"
 #include "tracer/render/render_private.h"
 
@@ -7,7 +8,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum {
     BAND_TILES_MAX = 8192, // 32 MiB of output
@@ -124,8 +124,8 @@ static struct hit_pixel read_hit(const struct renderer *renderer, const struct g
     hit.reflected = body_of(renderer, words[2].z);
     hit.refracted = body_of(renderer, words[2].w);
     hit.distance = ldexp(renderer_real(renderer, words[0].x, words[0].y), -renderer->flat->scale_exponent);
-    hit.normal = (vec3){renderer_float(words[3].x), renderer_float(words[3].y), renderer_float(words[3].z)};
-    hit.albedo = (vec3){renderer_float(words[4].x), renderer_float(words[4].y), renderer_float(words[4].z)};
+    hit.normal = (vec3){float_of_bits(words[3].x), float_of_bits(words[3].y), float_of_bits(words[3].z)};
+    hit.albedo = (vec3){float_of_bits(words[4].x), float_of_bits(words[4].y), float_of_bits(words[4].z)};
     hit.reflects = (words[4].w & HITS_REFLECTS) != 0;
     hit.refracts = (words[4].w & HITS_REFRACTS) != 0;
     return hit;

@@ -1,4 +1,5 @@
 // Which compiled kernel a renderer's settings want, and its specialization constants.
+#include "core/float_bits.h"
 #include "tracer/render/render_private.h"
 
 #include "core/clock.h"
@@ -83,25 +84,13 @@ uint32_t renderer_stack_levels(const struct renderer *renderer) {
 }
 
 static uint32_t bits_of(double value) {
-    const float rounded = value > 0 ? fmaxf((float)value, FLT_MIN) : 0;
-    uint32_t bits;
-    memcpy(&bits, &rounded, sizeof bits);
-    return bits;
-}
-
-float renderer_float(uint32_t bits) {
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
+    return float_bits(value > 0 ? fmaxf((float)value, FLT_MIN) : 0);
 }
 
 double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t high) {
     if (!renderer->flat->is_double)
-        return (double)renderer_float(low);
-    const uint64_t bits = (uint64_t)high << 32 | low;
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
+        return (double)float_of_bits(low);
+    return double_of_bits((uint64_t)high << 32 | low);
 }
 
 // How many refracted rays that wait a kernel has room for in private memory; 0: they lie in the state buffer.

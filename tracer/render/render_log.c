@@ -1,5 +1,6 @@
 // One sample's path, logged ray by ray: the host decides which rays go on, as the tracer does, and the log
 // kernel follows all of a level at a time. Weights and sums are floats in the tracer's order.
+#include "core/float_bits.h"
 #include "core/heap.h"
 #include "tracer/render/render_private.h"
 
@@ -203,9 +204,9 @@ static void take_surface(struct walk *walk, uint32_t index, const struct gpu_wor
     s->enters = told[2].z & LOG_ENTERS;
     s->total_reflection = told[2].z & LOG_TOTAL;
     s->passes = told[2].z & LOG_PASSES;
-    walk->nodes[index].tint[0] *= renderer_float(told[LOG_LEFT].x);
-    walk->nodes[index].tint[1] *= renderer_float(told[LOG_LEFT].y);
-    walk->nodes[index].tint[2] *= renderer_float(told[LOG_LEFT].z);
+    walk->nodes[index].tint[0] *= float_of_bits(told[LOG_LEFT].x);
+    walk->nodes[index].tint[1] *= float_of_bits(told[LOG_LEFT].y);
+    walk->nodes[index].tint[2] *= float_of_bits(told[LOG_LEFT].z);
     walk->nodes[index].key = told[LOG_LEFT].w;
     s->material = told[3].w;
     s->point = point_at(renderer, told + 4);
@@ -220,9 +221,9 @@ static void take_surface(struct walk *walk, uint32_t index, const struct gpu_wor
         pass(walk, index, told);
         return;
     }
-    add_child(walk, index, RENDER_RAY_REFLECTED, renderer_float(told[5].z), told + LOG_REFLECTED,
+    add_child(walk, index, RENDER_RAY_REFLECTED, float_of_bits(told[5].z), told + LOG_REFLECTED,
               walk->nodes[index].ray + LOG_INSIDE);
-    add_child(walk, index, RENDER_RAY_REFRACTED, renderer_float(told[5].w), told + LOG_REFRACTED,
+    add_child(walk, index, RENDER_RAY_REFRACTED, float_of_bits(told[5].w), told + LOG_REFRACTED,
               told + LOG_AFTER);
 }
 
@@ -235,9 +236,9 @@ static void take_light(struct walk *walk, uint32_t index, const struct gpu_word 
     node->segment.light = told[2].z - 1;
     node->segment.distance =
         ldexp(renderer_real(renderer, told[0].x, told[0].y), -renderer->flat->scale_exponent);
-    node->tint[0] *= renderer_float(told[LOG_LEFT].x);
-    node->tint[1] *= renderer_float(told[LOG_LEFT].y);
-    node->tint[2] *= renderer_float(told[LOG_LEFT].z);
+    node->tint[0] *= float_of_bits(told[LOG_LEFT].x);
+    node->tint[1] *= float_of_bits(told[LOG_LEFT].y);
+    node->tint[2] *= float_of_bits(told[LOG_LEFT].z);
 }
 
 // As filling() of media.glsl.
@@ -257,7 +258,7 @@ static void take(struct walk *walk, uint32_t index, const struct gpu_word *told)
     s->weight = (double)node->throughput;
     s->origin = point_at(renderer, node->ray);
     s->direction = vector_at(renderer, node->ray + 2);
-    s->radiance = (vec3){renderer_float(told[3].x), renderer_float(told[3].y), renderer_float(told[3].z)};
+    s->radiance = (vec3){float_of_bits(told[3].x), float_of_bits(told[3].y), float_of_bits(told[3].z)};
     node->radiance[0] = (float)s->radiance.x;
     node->radiance[1] = (float)s->radiance.y;
     node->radiance[2] = (float)s->radiance.z;

@@ -151,7 +151,6 @@ bool renderer_pays_apart(const struct renderer *renderer);
 bool renderer_begins_apart(const struct renderer *renderer);
 // The kernel in which the paths of a frame begin; those that it saves go on in the tracing kernel.
 struct gpu_program *renderer_first_program(struct renderer *renderer, bool counts);
-float renderer_float(uint32_t bits);
 // A number that a kernel wrote in its own precision (shaders/bits.glsl).
 double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t high);
 // The frame's uniforms for a camera.

@@ -1,4 +1,5 @@
 // A frame, and a frame that counts, to their ends.
+#include "core/float_bits.h"
 #include "tracer/render/render_private.h"
 
 #include "core/clock.h"
@@ -27,8 +28,8 @@ static struct render_rays rays_of(const struct renderer_frame *run) {
                                 .items = counts[COUNTER_ITEMS],
                                 .unseen = counts[COUNTER_UNSEEN],
                                 .deepest = (uint32_t)counts[COUNTER_DEEPEST],
-                                .lost_by_depth = renderer_float((uint32_t)counts[COUNTER_LOST_DEPTH]),
-                                .lost_by_weight = renderer_float((uint32_t)counts[COUNTER_LOST_WEIGHT])};
+                                .lost_by_depth = float_of_bits((uint32_t)counts[COUNTER_LOST_DEPTH]),
+                                .lost_by_weight = float_of_bits((uint32_t)counts[COUNTER_LOST_WEIGHT])};
 }
 
 // The kernel that counts, or the other, with no count from before. false: see gpu_error.
