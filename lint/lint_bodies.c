@@ -6,6 +6,13 @@
 
 // ---- materials
 
+bool lint_sends_rays_on(const struct lint *lint) {
+    for (uint32_t i = 0; i < lint->body_count; i++)
+        if (lint->bodies[i].gain > 0)
+            return true;
+    return false;
+}
+
 const struct ir_material *lint_material(const struct lint *lint, const struct lint_body *body,
                                         uint32_t group) {
     return &lint->scene->assets->materials[body->is->materials[group]];

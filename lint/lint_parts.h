@@ -78,6 +78,8 @@ static inline bool lint_is_inside(struct lint *lint, const struct lint_body *bod
 // The material of one of a body's groups.
 const struct ir_material *lint_material(const struct lint *lint, const struct lint_body *body,
                                         uint32_t group);
+// Whether any body sends rays on: mirrors, or glass.
+bool lint_sends_rays_on(const struct lint *lint);
 // The triangles of a body that has some without a mesh; their number, 0 of other bodies.
 enum {
     LINT_FLAT_TRIANGLES = 2
@@ -93,6 +95,10 @@ static inline bool lint_is_there(const struct lint_body *body) {
 str lint_words(struct lint *lint, const struct lint_body *body);
 // "sphere 'ball'", or "a sphere".
 str lint_words_other(struct lint *lint, const struct lint_body *body);
+// "material 'glass'", or "this material".
+str lint_material_words(struct lint *lint, const struct ir_material *material);
+// Whether the file has the row of an element.
+bool lint_is_written(const struct ir_head *head, const struct schema_element *schema, const char *row);
 span lint_place(const struct lint *lint, const struct lint_body *body);
 span lint_place_mesh(const struct lint *lint, const struct lint_body *body);
 // A note at a line of a mesh file.

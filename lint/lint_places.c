@@ -23,6 +23,16 @@ str lint_words_other(struct lint *lint, const struct lint_body *body) {
     return arena_format(lint->arena, "a %s", body->is->element->name);
 }
 
+str lint_material_words(struct lint *lint, const struct ir_material *material) {
+    if (material->name.len)
+        return arena_format(lint->arena, "material '%.*s'", STR_ARG(material->name));
+    return STR("this material");
+}
+
+bool lint_is_written(const struct ir_head *head, const struct schema_element *schema, const char *row) {
+    return head->written >> schema_find_row(schema, str_from(row)) & 1;
+}
+
 span lint_place(const struct lint *lint, const struct lint_body *body) {
     return ir_place_label(lint->origin, body->is->head);
 }

@@ -3,18 +3,14 @@
 
 #include "grammar/ir.h"
 
-static bool is_written(const struct ir_head *head, const struct schema_element *schema, const char *row) {
-    return head->written >> schema_find_row(schema, str_from(row)) & 1;
-}
-
 // ---- a focus without a lens
 
 static void look_at_camera(struct lint *lint, const struct ir_camera *camera) {
     const char *const rows[] = {
         [IR_FOCUS_DISTANCE] = "focus", [IR_FOCUS_POINT] = "focus_at", [IR_FOCUS_BODY] = "focus_on"};
     const char *row = rows[camera->focusing];
-    if (camera->aperture > 0 || !is_written(&camera->head, &SCHEMA_CAMERA, row) ||
-        is_written(&camera->head, &SCHEMA_CAMERA, "aperture")) // 0: a lens that is switched off
+    if (camera->aperture > 0 || !lint_is_written(&camera->head, &SCHEMA_CAMERA, row) ||
+        lint_is_written(&camera->head, &SCHEMA_CAMERA, "aperture")) // 0: a lens that is switched off
         return;
     diag_add(lint->sink, DIAG_UNUSED_VALUE, ir_place_key(lint->origin, &camera->head, &SCHEMA_CAMERA, row),
              "'%s' of camera '%.*s' has no effect: without an aperture all is sharp", row,
@@ -24,17 +20,11 @@ static void look_at_camera(struct lint *lint, const struct ir_camera *camera) {
 
 // ---- materials
 
-static str words_of(struct lint *lint, const struct ir_material *material) {
-    if (material->name.len)
-        return arena_format(lint->arena, "material '%.*s'", STR_ARG(material->name));
-    return STR("this material");
-}
-
 static void report_row(struct lint *lint, const struct ir_material *material, const char *row) {
     diag_add(lint->sink, DIAG_UNUSED_VALUE,
              ir_place_key(lint->origin, &material->head, &SCHEMA_MATERIAL, row),
              "'%s' of %.*s has no effect: it neither reflects nor refracts", row,
-             STR_ARG(words_of(lint, material)));
+             STR_ARG(lint_material_words(lint, material)));
     diag_help(lint->sink,
               "give it a weight of reflection or refraction, the third and fourth number of albedo, or "
               "leave '%s' out",
@@ -46,7 +36,7 @@ static void report_image(struct lint *lint, const struct ir_material *material,
     diag_add(lint->sink, DIAG_UNUSED_VALUE,
              ir_place_value(lint->origin, &image->head, &SCHEMA_TEXTURE, "file"),
              "the image in '%s' of %.*s is not shown: its %s weight is 0", row,
-             STR_ARG(words_of(lint, material)), weight);
+             STR_ARG(lint_material_words(lint, material)), weight);
     diag_help(lint->sink, "give it a %s weight, the %s number of albedo, or leave the image out", weight,
               weight[0] == 'd' ? "first" : "second");
 }
@@ -61,9 +51,9 @@ static void look_inside(struct lint *lint, const struct ir_material *material) {
     const char *row = material->priority != 0 ? "priority" : "refractive_index";
     if (material->priority == 0 && (varnished || material->refractive_index == 1))
         return;
-    diag_add(lint->sink, DIAG_UNUSED_VALUE,
-             ir_place_key(lint->origin, &material->head, &SCHEMA_MATERIAL, row),
-             "'%s' of %.*s has no effect: it does not refract", row, STR_ARG(words_of(lint, material)));
+    diag_add(
+        lint->sink, DIAG_UNUSED_VALUE, ir_place_key(lint->origin, &material->head, &SCHEMA_MATERIAL, row),
+        "'%s' of %.*s has no effect: it does not refract", row, STR_ARG(lint_material_words(lint, material)));
     diag_help(lint->sink,
               "give it a weight of refraction, the fourth number of albedo, such as [0, 0.5, 0.1, 0.8] for "
               "glass, or leave "
@@ -137,8 +127,8 @@ static void look_at_shadows(struct lint *lint) {
 // Both must say so, as in lint_never_ends.
 static void look_at_samples(struct lint *lint) {
     const struct ir_image *image = &lint->ir->image;
-    if (!is_written(&image->head, &SCHEMA_IMAGE, "min_samples") ||
-        is_written(&image->head, &SCHEMA_IMAGE, "error") || lint->input->image->error > 0)
+    if (!lint_is_written(&image->head, &SCHEMA_IMAGE, "min_samples") ||
+        lint_is_written(&image->head, &SCHEMA_IMAGE, "error") || lint->input->image->error > 0)
         return;
     diag_add(lint->sink, DIAG_UNUSED_VALUE,
              ir_place_key(lint->origin, &image->head, &SCHEMA_IMAGE, "min_samples"),

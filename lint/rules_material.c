@@ -23,19 +23,14 @@ static span material_part(const struct lint *lint, const struct ir_material *mat
     return ir_place_value(lint->origin, &material->head, &SCHEMA_MATERIAL, row);
 }
 
-static str material_words(struct lint *lint, const struct ir_material *material) {
-    if (material->name.len)
-        return arena_format(lint->arena, "material '%.*s'", STR_ARG(material->name));
-    return STR("this material");
-}
-
 // ---- refraction with index 1
 
 static void report_index(struct lint *lint, const struct lint_body *body,
                          const struct ir_material *material) {
     diag_add(lint->sink, DIAG_INDEX_ONE, material_part(lint, material, "refractive_index", body),
              "%.*s refracts with weight %.*s but has the same index as the air around it, 1: nothing is bent",
-             STR_ARG(material_words(lint, material)), STR_ARG(number(lint, material->albedo.refraction)));
+             STR_ARG(lint_material_words(lint, material)),
+             STR_ARG(number(lint, material->albedo.refraction)));
     diag_note(lint->sink, lint_place(lint, body), "%.*s has this material", STR_ARG(lint_words(lint, body)));
     diag_help(lint->sink,
               "write refractive_index: 1.5 for glass, 1.33 for water; for a thin pane use a rectangle");
@@ -131,7 +126,7 @@ void lint_amplifying(struct lint *lint) {
     diag_add(lint->sink, DIAG_AMPLIFYING, material_part(lint, material, "albedo", body),
              "%.*s passes on %.*s times the light that it receives; between mirrors it grows %.3g times in "
              "%d bounces",
-             STR_ARG(material_words(lint, material)), STR_ARG(number(lint, body->gain)), growth, depth);
+             STR_ARG(lint_material_words(lint, material)), STR_ARG(number(lint, body->gain)), growth, depth);
     if (worst.a == worst.b)
         diag_note(lint->sink, lint_place(lint, body), "light can bounce around inside %.*s",
                   STR_ARG(lint_words_other(lint, body)));
@@ -153,10 +148,6 @@ static bool *shown_inside(struct lint *lint) {
     return shown;
 }
 
-static bool is_written(const struct ir_material *material, const char *row) {
-    return material->head.written >> schema_find_row(&SCHEMA_MATERIAL, str_from(row)) & 1;
-}
-
 static const char *why_not_shown(const struct ir_material *material, bool colored) {
     if (!colored)
         return "its attenuation_color is white";
@@ -174,14 +165,16 @@ void lint_attenuation(struct lint *lint) {
     for (uint32_t i = 0; i < lint->scene->assets->material_count; i++) {
         const struct ir_material *material = &lint->scene->assets->materials[i];
         const bool colored = !vec3_is_zero(lint->scene->materials[i].absorption);
-        const char *row =
-            is_written(material, "attenuation_color") ? "attenuation_color" : "attenuation_distance";
+        const char *row = lint_is_written(&material->head, &SCHEMA_MATERIAL, "attenuation_color")
+                              ? "attenuation_color"
+                              : "attenuation_distance";
         // What no body has is reported as such (W408).
-        if (!used[i] || material->head.origin == 0 || !is_written(material, row) || (colored && shown[i]))
+        if (!used[i] || material->head.origin == 0 ||
+            !lint_is_written(&material->head, &SCHEMA_MATERIAL, row) || (colored && shown[i]))
             continue;
         diag_add(lint->sink, DIAG_NO_EFFECT,
                  ir_place_key(lint->origin, &material->head, &SCHEMA_MATERIAL, row),
-                 "'%s' of %.*s has no effect: %s", row, STR_ARG(material_words(lint, material)),
+                 "'%s' of %.*s has no effect: %s", row, STR_ARG(lint_material_words(lint, material)),
                  why_not_shown(material, colored));
         diag_help(lint->sink,
                   colored ? "light is attenuated on its way inside a body: through a sphere or closed mesh "
@@ -210,7 +203,7 @@ void lint_black_medium(struct lint *lint) {
         diag_add(lint->sink, DIAG_BLACK_MEDIUM,
                  ir_place_value(lint->origin, &material->head, &SCHEMA_MATERIAL, "attenuation_color"),
                  "%.*s lets no %s through, however short the way inside is: 'attenuation_color' is 0 there",
-                 STR_ARG(material_words(lint, material)), gone);
+                 STR_ARG(lint_material_words(lint, material)), gone);
         diag_help(lint->sink, "write what is left after 'attenuation_distance', such as 0.02, in place of 0");
     }
 }

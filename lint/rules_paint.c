@@ -234,10 +234,6 @@ static bool shows_any(const struct looking *l, const struct lint_body *body) {
     return false;
 }
 
-static const char *material_words(struct lint *lint, const struct ir_material *m) {
-    return m->name.len ? arena_format(lint->arena, "material '%.*s'", STR_ARG(m->name)).ptr : "this material";
-}
-
 static void report(struct lint *lint, uint32_t material, const struct bare *bare, const struct shown *shown) {
     const struct ir_material *m = &lint->scene->assets->materials[material];
     const int percent = (int)(100 * shown->fine / shown->pixels + 0.5);
@@ -245,18 +241,19 @@ static void report(struct lint *lint, uint32_t material, const struct bare *bare
         const span at = ir_place_value(lint->origin, &bare->image->head, &SCHEMA_TEXTURE, "filter");
         diag_add(
             lint->sink, DIAG_TOO_FINE, at,
-            "the image of %s is finer than the picture: in %d %% of its place there, a pixel covers more "
+            "the image of %.*s is finer than the picture: in %d %% of its place there, a pixel covers more "
             "than %g of the image's in a row and shows the colour of one",
-            material_words(lint, m), percent, IMAGE_FINE);
+            STR_ARG(lint_material_words(lint, m)), percent, IMAGE_FINE);
         diag_help(lint->sink, "write filter: auto, the mean over what a pixel covers");
         diag_fix(lint->sink, false, at, STR("auto"));
         return;
     }
-    diag_add(lint->sink, DIAG_TOO_FINE,
-             ir_place_value(lint->origin, &m->diffuse_color.checker.head, &SCHEMA_CHECKER, "size"),
-             "the checker of %s is finer than the picture: in %d %% of its place there, a pixel covers more "
-             "than a cell and shows the colour of one",
-             material_words(lint, m), percent);
+    diag_add(
+        lint->sink, DIAG_TOO_FINE,
+        ir_place_value(lint->origin, &m->diffuse_color.checker.head, &SCHEMA_CHECKER, "size"),
+        "the checker of %.*s is finer than the picture: in %d %% of its place there, a pixel covers more "
+        "than a cell and shows the colour of one",
+        STR_ARG(lint_material_words(lint, m)), percent);
     diag_help(lint->sink, "write antialias: true in the checker, or larger cells");
 }
 
@@ -270,24 +267,17 @@ static void report_oversized(struct lint *lint, uint32_t material, const struct 
         return;
     diag_add(lint->sink, DIAG_OVERSIZED_IMAGE,
              ir_place_value(lint->origin, &bare->image->head, &SCHEMA_TEXTURE, "file"),
-             "the image of %s has %u x %u pixels, at least %.3g times more in a row than a picture of %d x "
+             "the image of %.*s has %u x %u pixels, at least %.3g times more in a row than a picture of %d x "
              "%d shows",
-             material_words(lint, m), picture->width, picture->height, least, lint->input->image->width,
-             lint->input->image->height);
+             STR_ARG(lint_material_words(lint, m)), picture->width, picture->height, least,
+             lint->input->image->width, lint->input->image->height);
     diag_help(lint->sink, "an image of %.0f x %.0f pixels is enough for this picture",
               ceil(picture->width / enough), ceil(picture->height / enough));
 }
 
-static bool is_anything_bent(const struct lint *lint) {
-    for (uint32_t i = 0; i < lint->body_count; i++)
-        if (lint->bodies[i].gain > 0)
-            return true;
-    return false;
-}
-
 static void report_all(struct lint *lint, const struct bare *bare, const struct shown *worst) {
     const double all = (double)lint->input->image->width * lint->input->image->height;
-    const bool may_magnify = is_anything_bent(lint);
+    const bool may_magnify = lint_sends_rays_on(lint);
     for (uint32_t m = 0; m < lint->scene->assets->material_count; m++) {
         const struct shown *w = &worst[m];
         if (bare[m].filtered && !may_magnify && w->pixels > 0 && w->least > EXCESS)

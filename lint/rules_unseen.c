@@ -84,13 +84,6 @@ static bool is_outside(const struct lint *lint, const struct lint_box *box, cons
     return false;
 }
 
-static bool anything_mirrors(const struct lint *lint) {
-    for (uint32_t i = 0; i < lint->body_count; i++)
-        if (lint->bodies[i].gain > 0)
-            return true;
-    return false;
-}
-
 // Where cameras see nothing at all, they are wrong, not the bodies.
 static void report_cameras(struct lint *lint) {
     const struct ir_camera *camera = &lint->ir->cameras.items[0];
@@ -119,7 +112,7 @@ static void report_body(struct lint *lint, const struct lint_body *body) {
 }
 
 void lint_unseen(struct lint *lint) {
-    if (lint->ir->cameras.count == 0 || anything_mirrors(lint))
+    if (lint->ir->cameras.count == 0 || lint_sends_rays_on(lint))
         return;
     if ((uint64_t)lint->body_count * lint->view_count * (lint->ir->lights.count + 1) > WORK_MAX)
         return;
