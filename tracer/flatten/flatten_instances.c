@@ -7,6 +7,7 @@
 #include "core/clock.h"
 #include "core/heap.h"
 #include "core/parallel.h"
+#include "core/quantile.h"
 #include "tracer/bvh/items.h"
 #include "tracer/flatten/flatten_parts.h"
 
@@ -59,11 +60,6 @@ static vec3 tree_space(const struct shared_mesh *shared, vec3 position) {
     return (vec3){ldexp(v.x, shared->exponent), ldexp(v.y, shared->exponent), ldexp(v.z, shared->exponent)};
 }
 
-static int compare_numbers(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return x < y ? -1 : x > y;
-}
-
 // What few triangles reach beyond; negative: no memory.
 static double usual_edge(const struct mesh *mesh) {
     double *longest = heap_zeroed((size_t)mesh->triangle_count + 1, sizeof *longest);
@@ -75,7 +71,7 @@ static double usual_edge(const struct mesh *mesh) {
             longest[i] = fmax(longest[i], vec3_length(vec3_sub(mesh->positions[corners[(k + 1) % 3]],
                                                                mesh->positions[corners[k]])));
         }
-    qsort(longest, mesh->triangle_count, sizeof *longest, compare_numbers);
+    quantile_sort(longest, mesh->triangle_count);
     const double edge = longest[(size_t)((mesh->triangle_count - 1) * EDGES_PART)];
     free(longest);
     return edge;

@@ -6,6 +6,7 @@
 // more than |M^-1|, for which the Frobenius norm is a bound.
 #include "core/heap.h"
 #include "core/parallel.h"
+#include "core/quantile.h"
 #include "scene/mesh_use.h"
 #include "tracer/flatten/flatten_parts.h"
 
@@ -67,11 +68,6 @@ static bool has_moderate_positions(const struct mesh *mesh) {
         if (!is_moderate3(mesh->positions[i]))
             return false;
     return true;
-}
-
-static int compare_numbers(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return x < y ? -1 : x > y;
 }
 
 // How many of the sorted heights are at most `most`.
@@ -164,7 +160,7 @@ static bool judge_models(struct judging *j) {
     parallel_for(mesh->triangle_count, PIECE, measure_heights, &heights);
     for (uint32_t i = 0; i < mesh->triangle_count; i++)
         j->sorted[i] = j->height[i];
-    qsort(j->sorted, mesh->triangle_count, sizeof *j->sorted, compare_numbers);
+    quantile_sort(j->sorted, mesh->triangle_count);
     return list_copied(j, choose_models(j));
 }
 
