@@ -2,6 +2,8 @@
 #include "assets/loader.h"
 #include "core/clock.h"
 #include "core/timeline.h"
+#include "diag/codes/file.h"
+#include "diag/codes/limit.h"
 #include "grammar/ir.h"
 #include "picture/read/picture_read.h"
 

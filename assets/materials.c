@@ -3,6 +3,8 @@
 
 #include "core/nearest.h"
 #include "core/strbuf.h"
+#include "diag/codes/file.h"
+#include "diag/codes/reference.h"
 #include "grammar/ir.h"
 #include "grammar/mesh_format.h"
 #include "grammar/schema.h"

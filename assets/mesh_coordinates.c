@@ -1,4 +1,5 @@
 #include "assets/mesh_coordinates.h"
+#include "diag/codes/file.h"
 
 #include "assets/mesh_reader.h"
 

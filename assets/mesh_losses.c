@@ -1,4 +1,5 @@
 #include "assets/mesh_losses.h"
+#include "diag/codes/file.h"
 
 // Of a face's size: a quadrilateral that is bent by more than some twenty degrees.
 #define BEND_PLAIN 0.05
@@ -40,7 +41,7 @@ static void report_parts(struct asset_file *file, const struct mesh *mesh) {
 void mesh_losses_report(struct asset_file *file, const struct mesh *mesh) {
     report_parts(file, mesh);
     const struct mesh_loss_count *bent = &mesh->losses[MESH_LOSS_BENT];
-    enum diag_code code = mesh->bent_most > BEND_PLAIN ? DIAG_MESH_BENT : DIAG_MESH_CURVED;
+    diag_code code = mesh->bent_most > BEND_PLAIN ? DIAG_MESH_BENT : DIAG_MESH_CURVED;
     if (bent->count &&
         asset_report_line(file, code, bent->line,
                           "%u of the mesh's %u faces %s not flat: corners are off the plane by up to "

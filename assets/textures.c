@@ -2,6 +2,7 @@
 #include "assets/gltf/asset_gltf.h"
 #include "assets/loader.h"
 #include "assets/mesh_coordinates.h"
+#include "diag/codes/file.h"
 #include "grammar/ir.h"
 #include "grammar/schema.h"
 #include "picture/formats/formats.h"

@@ -93,8 +93,8 @@ uint32_t cli_text_alike(const struct limits *limits);
 // Text for people, to standard error.
 void cli_write_error(str text);
 // One error with the place 1:1 of `path`, printed at once.
-void cli_error(struct cli *cli, enum diag_code code, const char *path, const char *help, const char *format,
-               ...) __attribute__((format(printf, 5, 6)));
+void cli_error(struct cli *cli, diag_code code, const char *path, const char *help, const char *format, ...)
+    __attribute__((format(printf, 5, 6)));
 // Reports that a signal ended the work (progress.h); returns its exit code.
 int cli_interrupted(struct cli *cli);
 // Whether a scene's file can be opened: CLI_OK, or CLI_FILE with an error printed. For who opens a device or

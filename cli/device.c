@@ -6,6 +6,7 @@
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "core/timeline.h"
+#include "diag/codes/device.h"
 #include "files/folder_store.h"
 
 #include <inttypes.h>

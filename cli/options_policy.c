@@ -4,6 +4,7 @@
 #include "cli/cli.h"
 
 #include "core/nearest.h"
+#include "diag/codes/limit.h"
 #include "load/settings/config.h"
 
 #include <string.h>

@@ -3,6 +3,11 @@
 #include "cli/made.h"
 
 #include "cli/progress.h"
+#include "diag/codes/binding.h"
+#include "diag/codes/command.h"
+#include "diag/codes/file.h"
+#include "diag/codes/limit.h"
+#include "diag/codes/reference.h"
 #include "diag/diag_text.h"
 #include "files/output.h"
 
@@ -85,7 +90,7 @@ void cli_print_sink(struct cli *cli, const struct diag_sink *sink) {
     print(cli, sink, &cli->sources, true);
 }
 
-static bool has_code(const struct diag_sink *sink, enum diag_code code) {
+static bool has_code(const struct diag_sink *sink, diag_code code) {
     for (uint32_t i = 0; i < sink->count; i++)
         if (sink->items[i].code == code)
             return true;
@@ -113,8 +118,7 @@ int cli_report(struct cli *cli, struct session *session, bool notes) {
     return cli_session_status(session);
 }
 
-void cli_error(struct cli *cli, enum diag_code code, const char *path, const char *help, const char *format,
-               ...) {
+void cli_error(struct cli *cli, diag_code code, const char *path, const char *help, const char *format, ...) {
     struct diag_sink sink;
     char fixed[1024];
     va_list args;

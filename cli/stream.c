@@ -1,6 +1,8 @@
 // Standard input as a scene: the operand '-', with --as and --base.
 #include "cli/cli.h"
 
+#include "diag/codes/file.h"
+#include "diag/codes/limit.h"
 #include "files/files.h"
 #include "files/stream.h"
 

@@ -76,7 +76,7 @@ static void count(struct diag_sink *sink, enum diag_severity severity) {
         sink->notes++;
 }
 
-static void drop(struct diag_sink *sink, enum diag_code code, uint32_t number) {
+static void drop(struct diag_sink *sink, diag_code code, uint32_t number) {
     sink->dropped += number;
     sink->dropped_of[code] += number;
 }
@@ -85,7 +85,7 @@ bool diag_is_full(const struct diag_sink *sink) {
     return sink->count >= sink->kept_max;
 }
 
-struct diag *diag_add(struct diag_sink *sink, enum diag_code code, span at, const char *format, ...) {
+struct diag *diag_add(struct diag_sink *sink, diag_code code, span at, const char *format, ...) {
     count(sink, diag_info(code)->severity);
     str message = STR("");
     va_list args;
@@ -296,8 +296,8 @@ void diag_merge(struct diag_sink *into, const struct diag_sink *from) {
     uint32_t notes = into->notes + from->notes;
     for (uint32_t i = 0; i < from->count; i++)
         copy_diag(into, &from->items[i]);
-    for (int code = 0; code < DIAG_CODE_COUNT; code++)
-        drop(into, (enum diag_code)code, from->dropped_of[code]);
+    for (diag_code code = diag_next(-1); code < DIAG_CODE_COUNT; code = diag_next(code))
+        drop(into, code, from->dropped_of[code]);
     into->errors = errors;
     into->warnings = warnings;
     into->notes = notes;

@@ -28,11 +28,12 @@ enum diag_where {
     DIAG_IN_COMMAND = 16, // needs an option, a device or a file outside the scene
 };
 
-enum diag_code {
-#define X(NAME, code) DIAG_##NAME,
-#include "diag/diag_names.def"
-#undef X
-    DIAG_CODE_COUNT
+// A code: those of a family follow each other from its first digit times DIAG_FAMILY on (diag/codes/).
+// Numbers between them are none: diag_next goes from code to code.
+typedef int diag_code;
+enum {
+    DIAG_FAMILY = 128,
+    DIAG_CODE_COUNT = 9 * DIAG_FAMILY, // all codes are less
 };
 
 struct diag_info {
@@ -52,7 +53,7 @@ struct diag_related {
 };
 
 struct diag {
-    enum diag_code code;
+    diag_code code;
     enum diag_severity severity; // the code's own, unless a policy changed it (diag/diag_policy.h)
     span at;
     str message;
@@ -94,7 +95,7 @@ void diag_sink_keep(struct diag_sink *sink, uint32_t most);
 
 // Adds a diagnostic and returns it for the calls below, valid until the next diag_add; never NULL. Texts
 // longer than 2000 bytes are cut.
-struct diag *diag_add(struct diag_sink *sink, enum diag_code code, span at, const char *format, ...)
+struct diag *diag_add(struct diag_sink *sink, diag_code code, span at, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 // Whether diag_add only counts from now on: what takes time to find, such as a suggestion, can be left out.
 bool diag_is_full(const struct diag_sink *sink);
@@ -113,11 +114,13 @@ void diag_fix_file(struct diag_sink *sink, bool safe, str path, str text);
 void diag_fix_part(struct diag_sink *sink, const struct source_set *sources, bool safe, str old,
                    str replacement);
 
-const struct diag_info *diag_info(enum diag_code code);
+const struct diag_info *diag_info(diag_code code);
 // The stage that a code belongs to by its first digit: "syntax", "binding", ...
-const char *diag_stage(enum diag_code code);
+const char *diag_stage(diag_code code);
+// The code after this one, -1 for the first; DIAG_CODE_COUNT after the last.
+diag_code diag_next(diag_code code);
 // The code whose text is `code` ("E203"), case ignored; DIAG_CODE_COUNT if there is none.
-enum diag_code diag_find(str code);
+diag_code diag_find(str code);
 
 // Sorts by source, place and order of report; drops exact repeats (same code, place and message). If memory
 // for sorting is lacking, the order of report stays.

@@ -20,7 +20,7 @@ bool diag_is_code_text(str text) {
            (family || digits);
 }
 
-bool diag_code_matches(enum diag_code code, str text) {
+bool diag_code_matches(diag_code code, str text) {
     const char *own = diag_info(code)->code;
     if (!diag_is_code_text(text))
         return false;
@@ -42,10 +42,10 @@ enum diag_policy_status diag_policy_level(struct diag_policy *policy, str codes,
     enum diag_policy_status status = DIAG_POLICY_UNKNOWN_CODE;
     if (level < 0)
         return DIAG_POLICY_BAD_WORD;
-    for (int i = 0; i < DIAG_CODE_COUNT; i++) {
-        if (!diag_code_matches((enum diag_code)i, codes))
+    for (diag_code i = diag_next(-1); i < DIAG_CODE_COUNT; i = diag_next(i)) {
+        if (!diag_code_matches(i, codes))
             continue;
-        if (diag_info((enum diag_code)i)->severity == DIAG_ERROR)
+        if (diag_info(i)->severity == DIAG_ERROR)
             return DIAG_POLICY_ERROR_CODE;
         policy->level[i] = (uint8_t)(level + DIAG_LEVEL_ERROR);
         status = DIAG_POLICY_SET;
@@ -55,8 +55,8 @@ enum diag_policy_status diag_policy_level(struct diag_policy *policy, str codes,
 
 enum diag_policy_status diag_policy_only(struct diag_policy *policy, str codes) {
     enum diag_policy_status status = DIAG_POLICY_UNKNOWN_CODE;
-    for (int i = 0; i < DIAG_CODE_COUNT; i++) {
-        if (!diag_code_matches((enum diag_code)i, codes))
+    for (diag_code i = diag_next(-1); i < DIAG_CODE_COUNT; i = diag_next(i)) {
+        if (!diag_code_matches(i, codes))
             continue;
         policy->only[i] = true;
         policy->has_only = true;
@@ -79,7 +79,7 @@ void diag_policy_ignore_path(struct diag_policy *policy, struct arena *arena, st
 }
 
 void diag_policy_overlay(struct diag_policy *policy, struct arena *arena, const struct diag_policy *over) {
-    for (int i = 0; i < DIAG_CODE_COUNT; i++) {
+    for (diag_code i = diag_next(-1); i < DIAG_CODE_COUNT; i = diag_next(i)) {
         if (over->level[i] != DIAG_LEVEL_STANDARD)
             policy->level[i] = over->level[i];
         if (over->has_only)

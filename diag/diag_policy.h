@@ -53,7 +53,7 @@ extern const char *const diag_fail_words[];
 // "xx".
 bool diag_is_code_text(str text);
 // Whether `code` is what `text` names, or belongs to it.
-bool diag_code_matches(enum diag_code code, str text);
+bool diag_code_matches(diag_code code, str text);
 
 enum diag_policy_status diag_policy_level(struct diag_policy *policy, str codes, str word);
 // Adds to the only codes that are reported.

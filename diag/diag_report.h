@@ -25,7 +25,7 @@ struct report_note {
 };
 
 struct report_finding {
-    enum diag_code code;
+    diag_code code;
     enum diag_severity severity;
     struct report_place at;
     str scene_path; // "models[2].material"; empty: none is known

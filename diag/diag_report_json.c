@@ -78,11 +78,11 @@ static void statistics(struct json_writer *w, const struct report_assets *a) {
 // What the findings that are not listed are, and what lists them.
 static void left_out(struct json_writer *w, const struct report_scene *s) {
     json_open_list(w, "left_out_codes");
-    for (int code = 0; code < DIAG_CODE_COUNT; code++) {
+    for (diag_code code = diag_next(-1); code < DIAG_CODE_COUNT; code = diag_next(code)) {
         if (!s->left_out.of[code])
             continue;
         json_open_object(w, NULL);
-        json_write_text(w, "code", str_from(diag_info((enum diag_code)code)->code));
+        json_write_text(w, "code", str_from(diag_info(code)->code));
         json_write_integer(w, "count", s->left_out.of[code]);
         json_close_object(w);
     }

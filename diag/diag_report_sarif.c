@@ -184,7 +184,7 @@ static void help_address(struct json_writer *w, const char *home, const char *co
     strbuf_finish(&text);
 }
 
-static void rule(struct json_writer *w, enum diag_code code, const char *home) {
+static void rule(struct json_writer *w, diag_code code, const char *home) {
     const struct diag_info *info = diag_info(code);
     static const char *const problems[] = {"error", "warning", "recommendation"};
     struct strbuf text;
@@ -237,11 +237,11 @@ static void tool(struct json_writer *w, const struct report *report, const struc
     if (report->home && report->home[0])
         json_write_text(w, "informationUri", str_from(report->home));
     json_open_list(w, "rules");
-    for (int i = 0; i < DIAG_CODE_COUNT; i++) {
+    for (diag_code i = diag_next(-1); i < DIAG_CODE_COUNT; i = diag_next(i)) {
         if (!used[i])
             continue;
         index[i] = count++;
-        rule(w, (enum diag_code)i, report->home);
+        rule(w, i, report->home);
     }
     json_close_list(w);
     json_close_object(w);

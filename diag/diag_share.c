@@ -44,7 +44,7 @@ struct diag_share diag_share_begin(const struct diag_sink *sink, uint32_t most, 
                                .source = UINT32_MAX};
 }
 
-static uint32_t alike_of(const struct diag_share *share, enum diag_code code) {
+static uint32_t alike_of(const struct diag_share *share, diag_code code) {
     bool made = (diag_info(code)->where & (DIAG_IN_MESH | DIAG_IN_IMAGE)) != 0;
     if (share->alike == UINT32_MAX || !made)
         return share->alike;
@@ -61,24 +61,23 @@ bool diag_share_takes(struct diag_share *share, const struct diag *item, bool al
     return fits || always;
 }
 
-void diag_hide(struct diag_hidden *hidden, enum diag_code code, uint32_t number) {
+void diag_hide(struct diag_hidden *hidden, diag_code code, uint32_t number) {
     hidden->count += number;
     hidden->of[code] += number;
 }
 
 void diag_hide_dropped(struct diag_hidden *hidden, const struct diag_sink *sink, bool notes) {
-    for (int code = 0; code < DIAG_CODE_COUNT && sink->dropped; code++)
-        if (notes || diag_info((enum diag_code)code)->severity != DIAG_NOTE)
-            diag_hide(hidden, (enum diag_code)code, sink->dropped_of[code]);
+    for (diag_code code = diag_next(-1); code < DIAG_CODE_COUNT && sink->dropped; code = diag_next(code))
+        if (notes || diag_info(code)->severity != DIAG_NOTE)
+            diag_hide(hidden, code, sink->dropped_of[code]);
 }
 
 void diag_hidden_codes(struct strbuf *out, const struct diag_hidden *hidden) {
     bool first = true;
-    for (int code = 0; code < DIAG_CODE_COUNT; code++) {
+    for (diag_code code = diag_next(-1); code < DIAG_CODE_COUNT; code = diag_next(code)) {
         if (!hidden->of[code])
             continue;
-        strbuf_format(out, "%s%s: %u", first ? "" : ", ", diag_info((enum diag_code)code)->code,
-                      hidden->of[code]);
+        strbuf_format(out, "%s%s: %u", first ? "" : ", ", diag_info(code)->code, hidden->of[code]);
         first = false;
     }
 }

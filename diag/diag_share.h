@@ -30,7 +30,7 @@ struct diag_hidden {
     uint32_t count;
     uint32_t of[DIAG_CODE_COUNT];
 };
-void diag_hide(struct diag_hidden *hidden, enum diag_code code, uint32_t number);
+void diag_hide(struct diag_hidden *hidden, diag_code code, uint32_t number);
 // Those that the sink itself had no room for; notes only if they are asked for.
 void diag_hide_dropped(struct diag_hidden *hidden, const struct diag_sink *sink, bool notes);
 // "E206: 80, W401: 20", in the order of the codes.

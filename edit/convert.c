@@ -1,4 +1,6 @@
 #include "edit/convert.h"
+#include "diag/codes/command.h"
+#include "diag/codes/limit.h"
 
 #include "grammar/print/ir_print.h"
 #include "grammar/schema.h"

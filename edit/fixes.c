@@ -1,4 +1,5 @@
 #include "edit/fixes.h"
+#include "diag/codes/file.h"
 
 #include "core/text_edit.h"
 #include "edit/layout.h"
@@ -29,7 +30,7 @@ struct fixer {
 struct tried {
     uint32_t file; // in fixes.files
     uint32_t begin, end;
-    enum diag_code code;
+    diag_code code;
 };
 
 // ---- which findings, in which files

@@ -1,4 +1,6 @@
 #include "edit/layout.h"
+#include "diag/codes/command.h"
+#include "diag/codes/limit.h"
 
 #include "load/session.h"
 #include "parser/format/format.h"

@@ -1,3 +1,5 @@
+#include "diag/codes/limit.h"
+#include "diag/codes/rule.h"
 #include "lint/lint_parts.h"
 
 // The rules in the order of their codes.

@@ -110,7 +110,7 @@ void lint_fix_row(struct lint *lint, const struct ir_head *head, const struct sc
                   const char *row, const char *beside, const char *value);
 
 struct lint_rule {
-    enum diag_code code;
+    diag_code code;
     void (*run)(struct lint *lint);
     enum lint_level level; // the least one that runs it
 };

@@ -3,6 +3,7 @@
 // Within a mesh: lint_find_pairs. Between bodies: those at equal places first, then each pair whose boxes
 // overlap (body_pairs.c), the faces of the smaller body against the tree of the larger one. Two faces count
 // only where a camera could see both: the bottom of a box on a floor is hidden by the box.
+#include "diag/codes/rule.h"
 #include "lint/body_pairs.h"
 #include "lint/lint_parts.h"
 #include "scene/media.h"

@@ -3,6 +3,7 @@
 // A grid of rays goes straight on through all that refracts; the surfaces that it crosses, up to the first
 // opaque one and as long as its throughput is at least min_weight, are the depth that it needs. Bending is
 // left out: it moves the layers in the picture, and hardly changes their number.
+#include "diag/codes/rule.h"
 #include "lint/lint_parts.h"
 
 #include "core/heap.h"

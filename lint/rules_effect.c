@@ -1,4 +1,5 @@
 // Values that nothing uses: what is written has no effect on the picture.
+#include "diag/codes/rule.h"
 #include "lint/lint_parts.h"
 
 #include "grammar/ir.h"

@@ -1,4 +1,5 @@
 // Images of more texels than a picture can show.
+#include "diag/codes/rule.h"
 #include "lint/lint_parts.h"
 
 #include "grammar/ir.h"

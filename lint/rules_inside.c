@@ -1,4 +1,5 @@
 // Cameras and lights inside bodies, lights on surfaces.
+#include "diag/codes/rule.h"
 #include "lint/box_tree.h"
 #include "lint/lint_parts.h"
 

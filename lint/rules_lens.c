@@ -1,4 +1,5 @@
 // Lenses and rough surfaces: where they cannot show what they are for, and where rays begin inside bodies.
+#include "diag/codes/rule.h"
 #include "lint/lint_parts.h"
 
 #include "grammar/ir.h"

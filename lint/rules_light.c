@@ -1,4 +1,5 @@
 // Lights with extent: at too few samples, around bodies and cameras; ambient light; backgrounds that light.
+#include "diag/codes/rule.h"
 #include "lint/lint_parts.h"
 
 #include "grammar/ir.h"

@@ -1,4 +1,5 @@
 // Weights and indices: what a material can and cannot do with light.
+#include "diag/codes/rule.h"
 #include "lint/lint_parts.h"
 
 #include "core/number.h"

@@ -6,6 +6,8 @@
 // below the faces of one that are inside the other. Bodies that touch are apart: a share of the smaller one's
 // size counts as touching, since what is written with few digits overlaps by a hair.
 #include "core/angle.h"
+#include "diag/codes/limit.h"
+#include "diag/codes/rule.h"
 #include "lint/body_pairs.h"
 #include "lint/box_tree.h"
 #include "lint/lint_parts.h"

@@ -4,6 +4,7 @@
 // Rays through a grid over the picture find spheres and rectangles, and each triangle of a mesh counts with
 // the pixels that it covers. What lies in front of a body is left out: it covers fine parts and coarse ones
 // alike.
+#include "diag/codes/rule.h"
 #include "lint/lint_parts.h"
 
 #include "core/heap.h"

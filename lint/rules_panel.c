@@ -1,4 +1,5 @@
 // Panels that light nothing, and those in the plane of a face.
+#include "diag/codes/rule.h"
 #include "lint/lint_parts.h"
 
 #include "grammar/ir.h"

@@ -1,4 +1,5 @@
 // How many samples pixels take, and may take.
+#include "diag/codes/rule.h"
 #include "lint/lint_parts.h"
 
 #include "grammar/ir.h"

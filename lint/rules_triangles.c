@@ -1,4 +1,5 @@
 // Triangles one by one: without area, given twice, with normals that oppose them.
+#include "diag/codes/rule.h"
 #include "lint/lint_parts.h"
 
 static str others(struct lint *lint, const struct lint_mesh *mesh) {

@@ -1,4 +1,5 @@
 // What the scene holds and nothing uses.
+#include "diag/codes/rule.h"
 #include "grammar/ir_walk.h"
 #include "lint/lint_parts.h"
 

@@ -1,4 +1,5 @@
 #include "load/check.h"
+#include "diag/codes/rule.h"
 
 #include "grammar/ir.h"
 #include "grammar/ir_walk.h"

@@ -1,4 +1,5 @@
 #include "load/check_allow.h"
+#include "diag/codes/command.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -225,10 +226,10 @@ static void read_code(struct allows *allows, span comment, span word) {
     str text = source_text(&session->sources, word);
     bool known = false;
     bool can_be_allowed = false;
-    for (int i = 0; i < DIAG_CODE_COUNT; i++) {
-        bool matches = diag_code_matches((enum diag_code)i, text);
+    for (diag_code i = diag_next(-1); i < DIAG_CODE_COUNT; i = diag_next(i)) {
+        bool matches = diag_code_matches(i, text);
         known = known || matches;
-        can_be_allowed = can_be_allowed || (matches && diag_info((enum diag_code)i)->severity != DIAG_ERROR);
+        can_be_allowed = can_be_allowed || (matches && diag_info(i)->severity != DIAG_ERROR);
     }
     if (!known) {
         bad_comment(allows, word, "there is no code '", text, "'");
@@ -307,7 +308,7 @@ static uint32_t count_up_to(const struct allows *allows, uint32_t source, uint32
 }
 
 // Marks the comments that allow the code on a line; false: there is none.
-static bool allows_on(struct allows *allows, enum diag_code code, uint32_t source, uint32_t line) {
+static bool allows_on(struct allows *allows, diag_code code, uint32_t source, uint32_t line) {
     bool found = false;
     for (uint32_t i = count_up_to(allows, source, line); i > 0; i = allows->outer[i - 1]) {
         struct allow *allow = &allows->list.items[i - 1];
@@ -322,7 +323,7 @@ static bool allows_on(struct allows *allows, enum diag_code code, uint32_t sourc
     return found;
 }
 
-static bool allows_at(struct allows *allows, enum diag_code code, span at) {
+static bool allows_at(struct allows *allows, diag_code code, span at) {
     uint32_t line = source_line(&allows->session->sources, at);
     struct answer *answer = &allows->answers[code];
     if (!answer->known || answer->source != at.source || answer->line != line)

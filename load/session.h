@@ -107,7 +107,7 @@ void session_no_memory(struct session *session, const char *what);
 // Reports that the picture has more pixels than can be held at once.
 void session_report_pixels(struct session *session);
 // What is reported about a scene file that cannot be read.
-enum diag_code session_file_code(enum file_status status);
+diag_code session_file_code(enum file_status status);
 // What reads meshes and images of the loaded scene; it points into the session.
 struct assets_input session_assets_input(struct session *session);
 // The last step of session_load, as options.lint says.

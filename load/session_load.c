@@ -4,6 +4,10 @@
 #include "core/ranges.h"
 #include "core/strbuf.h"
 #include "core/timeline.h"
+#include "diag/codes/command.h"
+#include "diag/codes/file.h"
+#include "diag/codes/limit.h"
+#include "diag/codes/rule.h"
 #include "grammar/ir.h"
 #include "grammar/ir_print_text.h"
 #include "grammar/mesh_format.h"
@@ -19,7 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum diag_code session_file_code(enum file_status status) {
+diag_code session_file_code(enum file_status status) {
     switch (status) {
     case FILE_MISSING:
         return DIAG_FILE_MISSING;

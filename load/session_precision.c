@@ -1,4 +1,7 @@
 #include "load/session_precision.h"
+#include "diag/codes/device.h"
+#include "diag/codes/limit.h"
+#include "diag/codes/rule.h"
 
 #include "grammar/ir.h"
 #include "grammar/schema.h"

@@ -1,4 +1,5 @@
 // Paths of a scene that is written to a folder other than the one it was read from.
+#include "diag/codes/file.h"
 #include "load/session.h"
 
 #include "grammar/ir_walk.h"

@@ -1,4 +1,5 @@
 // What other code asks of a loaded session: the input for its assets, cameras and lights.
+#include "diag/codes/reference.h"
 #include "load/session.h"
 
 #include "core/nearest.h"

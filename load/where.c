@@ -1,4 +1,5 @@
 #include "load/where.h"
+#include "diag/codes/limit.h"
 
 #include "grammar/ir.h"
 #include "grammar/ir_features.h"

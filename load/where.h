@@ -47,7 +47,7 @@ bool where_camera_fits(struct session *session, uint32_t camera, const struct vi
 // Reports in the sink that pixels have a fault, with the body (HIT_NONE: none) that the first one's path hit
 // last: its material, and the lines of scene and mesh.
 struct where_fault {
-    enum diag_code code;
+    diag_code code;
     const char *words; // WHERE_NOT_FINITE, or others that follow "3 pixels"
     uint32_t pixels, x, y;
     uint32_t body, triangle;

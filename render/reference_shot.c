@@ -1,4 +1,6 @@
 #include "render/reference_shot.h"
+#include "diag/codes/device.h"
+#include "diag/codes/limit.h"
 
 #include "core/heap.h"
 #include "load/where.h"
@@ -31,7 +33,7 @@ void reference_shot_close(struct reference_shot *shot) {
     shot->store_path = NULL;
 }
 
-static void report_fault(struct session *session, enum diag_code code, const struct reference_fault *fault,
+static void report_fault(struct session *session, diag_code code, const struct reference_fault *fault,
                          const char *words) {
     if (fault->pixels)
         where_report_fault(session, &(struct where_fault){.code = code,

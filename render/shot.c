@@ -1,4 +1,6 @@
 #include "render/shot.h"
+#include "diag/codes/device.h"
+#include "diag/codes/limit.h"
 
 #include "core/clock.h"
 #include "core/ranges.h"

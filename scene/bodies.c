@@ -1,6 +1,8 @@
 // The bodies of a scene, from the IR's lists and the loaded meshes.
 #include "core/heap.h"
 #include "core/limits.h"
+#include "diag/codes/limit.h"
+#include "diag/codes/rule.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 #include "scene/mesh_use.h"

@@ -1,4 +1,5 @@
 #include "scene/view.h"
+#include "diag/codes/rule.h"
 
 #include "core/angle.h"
 #include "grammar/ir.h"

@@ -1,5 +1,7 @@
 #include "assets/file/asset_file.h"
 
+#include "diag/codes/file.h"
+#include "diag/codes/limit.h"
 #include "diag/diag_outside.h"
 #include "grammar/schema.h"
 
@@ -97,14 +99,14 @@ static void add_named_notes(struct asset_file *file) {
             diag_note(f->input->sink, named_place(f), "the %s is named here", f->what);
 }
 
-static void add_named(struct asset_file *file, enum diag_code code, const char *message) {
+static void add_named(struct asset_file *file, diag_code code, const char *message) {
     diag_add(file->input->sink, code, named_place(file), "%s", message);
     file->errors += diag_info(code)->severity == DIAG_ERROR;
     if (file->named_in)
         add_named_notes(file->named_in);
 }
 
-void asset_report_named(struct asset_file *file, enum diag_code code, const char *format, ...) {
+void asset_report_named(struct asset_file *file, diag_code code, const char *format, ...) {
     char message[MESSAGE_MAX];
     va_list args;
     va_start(args, format);
@@ -123,7 +125,7 @@ void asset_report_part(struct asset_file *file, const char *format, ...) {
     file->errors++;
 }
 
-bool asset_only_counts(struct asset_file *file, enum diag_code code) {
+bool asset_only_counts(struct asset_file *file, diag_code code) {
     struct diag_sink *sink = file->input->sink;
     if (!diag_is_full(sink))
         return false;
@@ -133,9 +135,8 @@ bool asset_only_counts(struct asset_file *file, enum diag_code code) {
 }
 
 // `line` is that of the place, for files whose text is not kept; 0 is the whole file.
-__attribute__((format(printf, 5, 0))) static void report(struct asset_file *file, enum diag_code code,
-                                                         span at, uint32_t line, const char *format,
-                                                         va_list args) {
+__attribute__((format(printf, 5, 0))) static void report(struct asset_file *file, diag_code code, span at,
+                                                         uint32_t line, const char *format, va_list args) {
     const struct assets_input *input = file->input;
     char message[MESSAGE_MAX];
     format_message(message, format, args);
@@ -161,7 +162,7 @@ static uint32_t line_if_not_kept(struct asset_file *file, size_t offset) {
     return file->counted_line;
 }
 
-bool asset_report(struct asset_file *file, enum diag_code code, size_t begin, size_t end, const char *format,
+bool asset_report(struct asset_file *file, diag_code code, size_t begin, size_t end, const char *format,
                   ...) {
     if (asset_only_counts(file, code))
         return false;
@@ -173,7 +174,7 @@ bool asset_report(struct asset_file *file, enum diag_code code, size_t begin, si
     return true;
 }
 
-bool asset_report_line(struct asset_file *file, enum diag_code code, uint32_t line, const char *format, ...) {
+bool asset_report_line(struct asset_file *file, diag_code code, uint32_t line, const char *format, ...) {
     if (asset_only_counts(file, code))
         return false;
     va_list args;
@@ -183,7 +184,7 @@ bool asset_report_line(struct asset_file *file, enum diag_code code, uint32_t li
     return true;
 }
 
-bool asset_report_byte(struct asset_file *file, enum diag_code code, uint64_t byte, const char *format, ...) {
+bool asset_report_byte(struct asset_file *file, diag_code code, uint64_t byte, const char *format, ...) {
     if (asset_only_counts(file, code))
         return false;
     char message[MESSAGE_MAX];

@@ -48,24 +48,24 @@ bool asset_read(struct asset_file *file, struct arena *arena);
 
 // Adds a diagnostic for bytes [begin, end) of the file's text, with its "named here" notes. false: it was
 // only counted, and neither help nor notes must be added.
-bool asset_report(struct asset_file *file, enum diag_code code, size_t begin, size_t end, const char *format,
-                  ...) __attribute__((format(printf, 5, 6)));
+bool asset_report(struct asset_file *file, diag_code code, size_t begin, size_t end, const char *format, ...)
+    __attribute__((format(printf, 5, 6)));
 // The same for a whole line (from 1; 0 means the whole file).
-bool asset_report_line(struct asset_file *file, enum diag_code code, uint32_t line, const char *format, ...)
+bool asset_report_line(struct asset_file *file, diag_code code, uint32_t line, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 // The same at a byte of a binary file, from 0.
-bool asset_report_byte(struct asset_file *file, enum diag_code code, uint64_t byte, const char *format, ...)
+bool asset_report_byte(struct asset_file *file, diag_code code, uint64_t byte, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 // Whether a further fault of this code is only counted; if so, counts it. For callers that need time to find
 // the place.
-bool asset_only_counts(struct asset_file *file, enum diag_code code);
+bool asset_only_counts(struct asset_file *file, diag_code code);
 // The place of a line of the file.
 span asset_line(struct asset_file *file, uint32_t line);
 // A copy in the input's arena, for what is reported where the file is named once it is closed, and those that
 // name it are.
 struct asset_file *asset_keep(struct asset_file *file);
 // Adds a diagnostic where the file is named.
-void asset_report_named(struct asset_file *file, enum diag_code code, const char *format, ...)
+void asset_report_named(struct asset_file *file, diag_code code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 // The same where the model names the part: the mesh has none of that name, or no parts. Help may follow.
 void asset_report_part(struct asset_file *file, const char *format, ...)

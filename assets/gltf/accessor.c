@@ -2,6 +2,8 @@
 #include "assets/gltf/parts.h"
 #include "core/float_bits.h"
 #include "core/heap.h"
+#include "diag/codes/file.h"
+#include "diag/codes/limit.h"
 
 #include <math.h>
 

@@ -2,13 +2,14 @@
 
 #include "assets/gltf/material.h"
 #include "core/heap.h"
+#include "diag/codes/file.h"
 #include "picture/read/picture_read.h"
 
 #include <stdlib.h>
 
 // ---- findings
 
-static void add_finding(void *context, enum diag_code code, size_t begin, size_t end, const char *message) {
+static void add_finding(void *context, diag_code code, size_t begin, size_t end, const char *message) {
     struct gltf_document *document = context;
     struct asset_file *file = &document->file;
     const uint32_t errors = file->errors;

@@ -1,6 +1,7 @@
 // Buffers, views of them and accessors: what the bytes of a file are, checked by their counts before any is
 // read.
 #include "assets/gltf/parts.h"
+#include "diag/codes/file.h"
 
 #include <string.h>
 

@@ -1,5 +1,6 @@
 // The two forms of a glTF file: JSON as it is, and GLB, a header with chunks.
 #include "assets/gltf/parts.h"
+#include "diag/codes/file.h"
 
 enum {
     HEADER_BYTES = 12,

@@ -1,5 +1,6 @@
 // The bytes of buffers: the binary chunk of the file, `data:` addresses, files beside it.
 #include "assets/gltf/parts.h"
+#include "diag/codes/file.h"
 
 #include <string.h>
 

@@ -1,4 +1,5 @@
 #include "assets/gltf/parts.h"
+#include "diag/codes/file.h"
 
 // What is read and shown, or changes nothing that is shown.
 static const char *const known[] = {

@@ -1,4 +1,5 @@
 #include "assets/gltf/fields.h"
+#include "diag/codes/file.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -14,7 +15,7 @@ const char *gltf_where(const struct gltf *gltf, json_index at) {
                                  : arena_format(gltf->arena, "%.*s...", SHOWN_MAX, path.ptr).ptr;
 }
 
-void gltf_add(struct gltf *gltf, enum diag_code code, json_index at, const char *format, ...) {
+void gltf_add(struct gltf *gltf, diag_code code, json_index at, const char *format, ...) {
     char message[MESSAGE_MAX];
     va_list args;
     gltf->errors += diag_info(code)->severity == DIAG_ERROR;

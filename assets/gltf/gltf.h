@@ -19,7 +19,7 @@
 // Where findings go. Bytes are those of gltf->json.text.
 struct gltf_report {
     void *context;
-    void (*add)(void *context, enum diag_code code, size_t begin, size_t end, const char *message);
+    void (*add)(void *context, diag_code code, size_t begin, size_t end, const char *message);
 };
 
 // What is in a file and not in the picture: how often, and where first.
@@ -271,7 +271,7 @@ str gltf_decode_uri(str uri, struct arena *arena);
 
 // ---- findings
 
-void gltf_add(struct gltf *gltf, enum diag_code code, json_index at, const char *format, ...)
+void gltf_add(struct gltf *gltf, diag_code code, json_index at, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 void gltf_lose(struct gltf *gltf, enum gltf_loss what, json_index at);
 // Tells the losses that were counted, each once, and forgets them.

@@ -1,6 +1,7 @@
 // Images, textures and materials.
 #include "assets/gltf/parts.h"
 #include "core/str_map.h"
+#include "diag/codes/file.h"
 
 #include <math.h>
 

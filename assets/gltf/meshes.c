@@ -1,5 +1,6 @@
 // Meshes: which accessors their primitives take, and whether these fit together.
 #include "assets/gltf/parts.h"
+#include "diag/codes/file.h"
 
 // The accessor of an attribute; GLTF_NONE: it has none, or what is wrong was reported.
 static uint32_t read_attribute(struct gltf *gltf, json_index attributes, const char *key, uint32_t components,

@@ -1,5 +1,6 @@
 // Cameras, lights, and the trees of nodes that place them and meshes.
 #include "assets/gltf/parts.h"
+#include "diag/codes/file.h"
 
 #include <math.h>
 

@@ -1,4 +1,5 @@
 #include "assets/gltf/read_gltf.h"
+#include "diag/codes/file.h"
 
 #include "assets/gltf/asset_gltf.h"
 #include "assets/gltf/material.h"

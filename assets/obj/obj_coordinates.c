@@ -2,6 +2,7 @@
 // cost neither time nor memory for it.
 #include "assets/obj/obj_lex.h"
 #include "assets/obj/read_obj.h"
+#include "diag/codes/file.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,7 +16,7 @@ struct reading {
 
 // ---- faults
 
-static void report(struct reading *r, enum diag_code code, const char *begin, const char *what) {
+static void report(struct reading *r, diag_code code, const char *begin, const char *what) {
     const size_t at = (size_t)(begin - r->lex.begin), end = obj_lex_offset(&r->lex);
     const int shown = end - at < 64 ? (int)(end - at) : 64;
     asset_report(r->file, code, at, end, "'%.*s' %s", shown, begin, what);

@@ -1,6 +1,7 @@
 #include "assets/obj/read_mtl.h"
 
 #include "assets/obj/obj_lex.h"
+#include "diag/codes/file.h"
 #include "grammar/ir.h"
 #include "grammar/schema.h"
 

@@ -1,4 +1,5 @@
 #include "assets/obj/read_obj.h"
+#include "diag/codes/file.h"
 
 #include "assets/obj/obj_chunk.h"
 #include "assets/obj/obj_lex.h"
@@ -34,7 +35,7 @@ struct obj_reader {
 
 // ---- faults
 
-static void report_word(struct obj_reader *r, enum diag_code code, str word, const char *what) {
+static void report_word(struct obj_reader *r, diag_code code, str word, const char *what) {
     if (r->is_quiet) {
         r->is_faulty = true;
         return;

@@ -1,6 +1,7 @@
 #include "assets/ply/ply_header.h"
 
 #include "core/number.h"
+#include "diag/codes/file.h"
 #include "grammar/mesh_format.h"
 
 #include <string.h>

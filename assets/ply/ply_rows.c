@@ -1,4 +1,5 @@
 #include "assets/ply/ply_rows.h"
+#include "diag/codes/file.h"
 
 #include "assets/file/mesh_number.h"
 #include "core/float_bits.h"

@@ -1,4 +1,5 @@
 #include "assets/ply/read_ply.h"
+#include "diag/codes/file.h"
 
 #include "assets/ply/ply_plain.h"
 #include "assets/ply/ply_rows.h"
@@ -46,7 +47,7 @@ static bool is_told(struct ply_reading *r) {
 }
 
 // A value that is read, and what is wrong with it.
-static void report_value(struct ply_reading *r, enum diag_code code, const char *begin, const char *end,
+static void report_value(struct ply_reading *r, diag_code code, const char *begin, const char *end,
                          double value, const char *what) {
     if (!is_told(r))
         return;
@@ -61,8 +62,7 @@ static void report_value(struct ply_reading *r, enum diag_code code, const char 
 }
 
 // A row that does not have the form that the header says.
-static void report_row(struct ply_reading *r, enum diag_code code, const struct ply_cursor *c,
-                       const char *what) {
+static void report_row(struct ply_reading *r, diag_code code, const struct ply_cursor *c, const char *what) {
     if (!is_told(r))
         return;
     if (r->header.form == PLY_TEXT)

@@ -3,6 +3,7 @@
 #include "assets/stl/stl_text.h"
 #include "assets/stl/weld.h"
 #include "core/float_bits.h"
+#include "diag/codes/file.h"
 #include "grammar/mesh_format.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 #include "assets/stl/stl_text.h"
+#include "diag/codes/file.h"
 
 #include "assets/file/mesh_number.h"
 #include "core/str_map.h"
@@ -52,7 +53,7 @@ static bool is_word(str word, const char *keyword) {
     return word.len == strlen(keyword) && str_ends_with_nocase(word, keyword);
 }
 
-static void report_word(struct text_reader *r, enum diag_code code, str word, const char *what) {
+static void report_word(struct text_reader *r, diag_code code, str word, const char *what) {
     const size_t at = (size_t)(word.ptr - r->text.ptr);
     const int shown = word.len < SHOWN_MOST ? (int)word.len : SHOWN_MOST;
     asset_report(r->file, code, at, at + word.len, "'%.*s' %s", shown, word.ptr, what);

@@ -9,6 +9,8 @@
 #include "cli/untrusted.h"
 #include "core/parallel.h"
 #include "core/str_map.h"
+#include "diag/codes/command.h"
+#include "diag/codes/limit.h"
 #include "diag/diag_report_text.h"
 #include "diag/diag_text.h"
 #include "edit/fixes.h"

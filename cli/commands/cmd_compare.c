@@ -2,6 +2,8 @@
 #include "cli/commands/commands.h"
 #include "core/heap.h"
 
+#include "diag/codes/file.h"
+#include "diag/codes/limit.h"
 #include "files/files.h"
 #include "picture/metrics/compare_report.h"
 #include "picture/metrics/heatmap.h"
@@ -22,7 +24,7 @@ struct comparison {
     float *linear; // the float picture as its file has it, if the other holds bytes; else NULL
 };
 
-static int cannot_read(struct comparison *c, const char *path, enum diag_code code, const char *why) {
+static int cannot_read(struct comparison *c, const char *path, diag_code code, const char *why) {
     cli_error(c->cli, code, path, NULL, "%s", why);
     return CLI_FILE;
 }

@@ -1,5 +1,6 @@
 // glint convert IN OUT: what the scene means, in the other spelling.
 #include "cli/commands/commands.h"
+#include "diag/codes/limit.h"
 #include "edit/convert.h"
 #include "grammar/schema.h"
 

@@ -1,6 +1,7 @@
 // glint diff A B: what differs in meaning between two scenes, with both places.
 #include "cli/commands/commands.h"
 #include "core/json_write.h"
+#include "diag/codes/limit.h"
 #include "grammar/print/ir_diff.h"
 
 static const char *const formats[] = {"text", "json", NULL};

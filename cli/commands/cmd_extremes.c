@@ -3,6 +3,7 @@
 #include "cli/device.h"
 #include "cli/progress.h"
 #include "core/nearest.h"
+#include "diag/codes/limit.h"
 #include "diag/diag_text.h"
 #include "files/files.h"
 #include "load/settings/extreme_bounds.h"

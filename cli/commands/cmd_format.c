@@ -2,6 +2,7 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/folder_scenes.h"
 #include "core/text_diff.h"
+#include "diag/codes/limit.h"
 #include "diag/diag_text.h"
 #include "edit/layout.h"
 

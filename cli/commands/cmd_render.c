@@ -6,6 +6,7 @@
 #include "cli/made.h"
 #include "core/clock.h"
 #include "core/timeline.h"
+#include "diag/codes/limit.h"
 #include "files/output.h"
 #include "grammar/ir.h"
 

@@ -3,6 +3,7 @@
 
 #include "cli/made.h"
 #include "core/nearest.h"
+#include "diag/codes/limit.h"
 #include "edit/schema_line.h"
 #include "grammar/emit/emit.h"
 

@@ -1,6 +1,8 @@
 #include "cli/commands/fix.h"
 
 #include "core/text_diff.h"
+#include "diag/codes/file.h"
+#include "diag/codes/limit.h"
 #include "edit/fixes.h"
 
 #include <stdio.h>

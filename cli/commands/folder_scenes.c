@@ -1,5 +1,6 @@
 #include "cli/commands/folder_scenes.h"
 
+#include "diag/codes/file.h"
 #include "load/check.h"
 
 #include <errno.h>

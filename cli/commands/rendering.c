@@ -1,4 +1,5 @@
 #include "cli/commands/rendering.h"
+#include "diag/codes/limit.h"
 
 #include "cli/device.h"
 

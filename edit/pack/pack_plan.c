@@ -1,4 +1,6 @@
 // Which file of a scene goes where in a package, and what its scene files must then contain.
+#include "diag/codes/command.h"
+#include "diag/codes/limit.h"
 #include "edit/pack/pack.h"
 
 #include "core/strbuf.h"

@@ -1,4 +1,5 @@
 // A package on the disk: made under a temporary name, loaded again and compared, then named.
+#include "diag/codes/file.h"
 #include "edit/pack/pack.h"
 
 #include "core/strbuf.h"

@@ -24,8 +24,8 @@ static void anchor(struct strbuf *out, const char *code) {
 
 static void put_list(struct strbuf *out) {
     strbuf_cstr(out, "| code | severity | |\n|---|---|---|\n");
-    for (int i = 0; i < DIAG_CODE_COUNT; i++) {
-        const struct diag_info *info = diag_info((enum diag_code)i);
+    for (diag_code i = diag_next(-1); i < DIAG_CODE_COUNT; i = diag_next(i)) {
+        const struct diag_info *info = diag_info(i);
         strbuf_format(out, "| [%s](#", info->code);
         anchor(out, info->code);
         strbuf_format(out, ") | %s | ", diag_severity_name(info->severity));
@@ -34,7 +34,7 @@ static void put_list(struct strbuf *out) {
     }
 }
 
-static void put_code(struct strbuf *out, enum diag_code code) {
+static void put_code(struct strbuf *out, diag_code code) {
     const struct diag_info *info = diag_info(code);
     strbuf_format(out, "\n### %s\n\n**%s: ", info->code, diag_severity_name(info->severity));
     plain(out, info->title);
@@ -57,11 +57,11 @@ void emit_codes(struct strbuf *out) {
     put_list(out);
     // Codes of a stage are next to each other.
     const char *last = "";
-    for (int i = 0; i < DIAG_CODE_COUNT; i++) {
-        const char *stage = diag_stage((enum diag_code)i);
+    for (diag_code i = diag_next(-1); i < DIAG_CODE_COUNT; i = diag_next(i)) {
+        const char *stage = diag_stage(i);
         if (strcmp(stage, last) != 0)
             strbuf_format(out, "\n## %c%s\n", (char)toupper((unsigned char)stage[0]), stage + 1);
         last = stage;
-        put_code(out, (enum diag_code)i);
+        put_code(out, i);
     }
 }

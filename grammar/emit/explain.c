@@ -61,7 +61,7 @@ static void paragraph_of(struct explainer *e, uint32_t indent, struct strbuf *te
 
 // ---- codes
 
-static void explain_code(struct explainer *e, enum diag_code code) {
+static void explain_code(struct explainer *e, diag_code code) {
     static const struct {
         unsigned where;
         const char *text;
@@ -427,8 +427,8 @@ static bool explain_alone(struct explainer *e, str what, bool *known) {
 static str suggest(str what, struct arena *arena) {
     struct nearest search = nearest_begin(what);
     bool dotted = memchr(what.ptr, '.', what.len) != NULL;
-    for (int code = 0; code < DIAG_CODE_COUNT && !dotted; code++) {
-        str text = str_from(diag_info((enum diag_code)code)->code);
+    for (diag_code code = diag_next(-1); code < DIAG_CODE_COUNT && !dotted; code = diag_next(code)) {
+        str text = str_from(diag_info(code)->code);
         if (nearest_distance(what, text) == 1)
             nearest_offer(&search, text);
     }
@@ -445,9 +445,9 @@ static str suggest(str what, struct arena *arena) {
 
 bool explain_codes(str family, struct strbuf *out) {
     bool any = false;
-    for (int i = 0; i < DIAG_CODE_COUNT; i++) {
-        const struct diag_info *info = diag_info((enum diag_code)i);
-        if (family.len && !diag_code_matches((enum diag_code)i, family))
+    for (diag_code i = diag_next(-1); i < DIAG_CODE_COUNT; i = diag_next(i)) {
+        const struct diag_info *info = diag_info(i);
+        if (family.len && !diag_code_matches(i, family))
             continue;
         strbuf_format(out, "%s  %-7s  %s\n", info->code, diag_severity_name(info->severity), info->title);
         any = true;
@@ -462,7 +462,7 @@ bool explain_codes(str family, struct strbuf *out) {
 
 bool explain(str what, bool color, struct strbuf *out) {
     struct explainer e = {out, color};
-    enum diag_code code = diag_find(what);
+    diag_code code = diag_find(what);
     if (code != DIAG_CODE_COUNT) {
         explain_code(&e, code);
         return true;

@@ -1,4 +1,5 @@
 #include "load/import/import.h"
+#include "diag/codes/file.h"
 
 #include "assets/gltf/fields.h"
 #include "assets/gltf/material.h"

@@ -1,4 +1,5 @@
 #include "load/import/plan.h"
+#include "diag/codes/file.h"
 
 #include "grammar/ir.h"
 #include "grammar/print/ir_print.h"

@@ -1,4 +1,6 @@
 #include "load/scope/baseline.h"
+#include "diag/codes/command.h"
+#include "diag/codes/limit.h"
 
 #include "core/number.h"
 #include "files/files_walk.h"

@@ -1,4 +1,6 @@
 // Which findings of a session a baseline knows, or will know.
+#include "diag/codes/file.h"
+#include "diag/codes/limit.h"
 #include "load/scope/baseline.h"
 
 #include <string.h>

@@ -1,4 +1,6 @@
 #include "load/scope/changed.h"
+#include "diag/codes/binding.h"
+#include "diag/codes/file.h"
 
 #include "files/files_walk.h"
 #include "load/inventory.h"

@@ -1,4 +1,7 @@
 #include "load/settings/config.h"
+#include "diag/codes/command.h"
+#include "diag/codes/file.h"
+#include "diag/codes/limit.h"
 
 #include "core/unicode.h"
 #include "load/settings/keys.h"
@@ -46,7 +49,7 @@ static void did_you_mean(const struct binder *b, tree_index node, const struct n
 }
 
 // There is no such key in the table: reports what may be meant, else what there is.
-static void unknown_key(const struct binder *b, const struct key_table *table, enum diag_code code,
+static void unknown_key(const struct binder *b, const struct key_table *table, diag_code code,
                         tree_index node, const struct nearest *search, str otherwise) {
     if (key_report_unknown(table, b->input->sink, code, tree_span(b->tree, node), shown(b, node), search))
         diag_fix(b->input->sink, false, tree_span(b->tree, node), nearest_best(search));

@@ -1,4 +1,5 @@
 #include "load/settings/extreme_bounds.h"
+#include "diag/codes/command.h"
 
 #include "core/number.h"
 #include "load/settings/keys.h"

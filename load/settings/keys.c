@@ -216,7 +216,7 @@ str key_list(const struct key_table *table, struct arena *arena) {
     return list;
 }
 
-bool key_report_unknown(const struct key_table *table, struct diag_sink *sink, enum diag_code code, span at,
+bool key_report_unknown(const struct key_table *table, struct diag_sink *sink, diag_code code, span at,
                         str name, const struct nearest *search) {
     str best = nearest_best(search);
     diag_add(sink, code, at, "there is no %s '%.*s'", table->what, STR_ARG(name));

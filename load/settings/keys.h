@@ -78,7 +78,7 @@ const struct key_row *key_find(const struct key_table *table, str name, struct n
 // "a, b and c", in the arena, whose guard the caller sets.
 str key_list(const struct key_table *table, struct arena *arena);
 // Reports that there is no key of this name, and the one that may be meant; false: no other is near.
-bool key_report_unknown(const struct key_table *table, struct diag_sink *sink, enum diag_code code, span at,
+bool key_report_unknown(const struct key_table *table, struct diag_sink *sink, diag_code code, span at,
                         str name, const struct nearest *search);
 
 #endif

@@ -1,4 +1,7 @@
 #include "load/settings/settings_file.h"
+#include "diag/codes/binding.h"
+#include "diag/codes/command.h"
+#include "diag/codes/syntax.h"
 
 struct reading {
     struct reader_context reader; // with a sink of its own

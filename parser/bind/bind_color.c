@@ -1,4 +1,5 @@
 // Colours as text: #rrggbb, one number, and what users of other programs write.
+#include "diag/codes/binding.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"

@@ -1,5 +1,6 @@
 // Values of several components: vectors, colours, weights; as a list, by name, or as one number or #rrggbb.
 // All others are in bind_scalar.c.
+#include "diag/codes/binding.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"

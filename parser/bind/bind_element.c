@@ -1,4 +1,5 @@
 // Elements, their rows and the entries of these: what calls itself for what is inside.
+#include "diag/codes/binding.h"
 #include "grammar/ir.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"

@@ -1,4 +1,5 @@
 // An entry of a list or named map before and after its rows: memory, label, key.
+#include "diag/codes/binding.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 

@@ -1,4 +1,5 @@
 // The root of a file: whether it is a scene, and all that it holds.
+#include "diag/codes/binding.h"
 #include "grammar/ir.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"

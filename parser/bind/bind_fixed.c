@@ -1,4 +1,5 @@
 // The values of a row that has several, one after the other; and rows that have a fixed number of them.
+#include "diag/codes/binding.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 

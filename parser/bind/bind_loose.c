@@ -1,6 +1,7 @@
 // What is recognised despite a reported mistake: it is still read, so that its own mistakes show in the same
 // run, and names in it are known.
 #include "core/number.h"
+#include "diag/codes/binding.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"

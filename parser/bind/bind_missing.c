@@ -1,4 +1,5 @@
 // What an element must have.
+#include "diag/codes/binding.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 

@@ -1,6 +1,7 @@
 // Names that an element does not have: what may have been meant, and where the name does exist.
 #include "core/nearest.h"
 #include "core/strbuf.h"
+#include "diag/codes/binding.h"
 #include "grammar/concept.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"

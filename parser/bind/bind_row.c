@@ -1,5 +1,6 @@
 // What must be known of a row before it is bound: which one a key names, where it is, whether it is given
 // twice.
+#include "diag/codes/binding.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 

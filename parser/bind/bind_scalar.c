@@ -1,5 +1,7 @@
 // One value of one row: numbers, words, booleans, text. Each mistake gets its message and, if the right text
 // is known, a fix.
+#include "diag/codes/binding.h"
+#include "diag/codes/syntax.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"

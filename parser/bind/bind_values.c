@@ -1,4 +1,5 @@
 // Values of a track: one to four numbers, expressions or #rrggbb, as a value, or as a list of them in YAML.
+#include "diag/codes/binding.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 

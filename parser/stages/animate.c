@@ -1,6 +1,8 @@
 // What moves: gives the scene its values in a frame, or checks all frames of it.
 #include "parser/stages/animate.h"
 #include "core/expression.h"
+#include "diag/codes/binding.h"
+#include "diag/codes/limit.h"
 
 #include "core/heap.h"
 #include "parser/bind/say.h"

@@ -1,4 +1,5 @@
 // Tracks as curves over numbers of the scene.
+#include "diag/codes/binding.h"
 #include "parser/stages/animate.h"
 
 #include "core/heap.h"

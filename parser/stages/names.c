@@ -1,5 +1,6 @@
 // Names: each is used once, and references find what they name.
 #include "core/str_map.h"
+#include "diag/codes/reference.h"
 #include "grammar/ir.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"

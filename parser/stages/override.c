@@ -1,6 +1,7 @@
 // Applies `--set` options to the merged scene: what the path leads to is bound again, by the same rules and
 // with the same words as in a file.
 #include "parser/stages/override.h"
+#include "diag/codes/binding.h"
 
 #include "parser/bind/say.h"
 #include "parser/bind/visit.h"

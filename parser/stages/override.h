@@ -78,7 +78,7 @@ bool override_parse(struct override *o);
 // Splits a path without a value. false: reported.
 bool override_parse_path(struct override *o);
 // What a finding about the path is: the code, or that of tracks.
-enum diag_code override_code(const struct override *o, enum diag_code code);
+diag_code override_code(const struct override *o, diag_code code);
 
 // override.c
 // The element and all that contain it count as written, with places of their own at the path.

@@ -1,3 +1,4 @@
+#include "diag/codes/binding.h"
 #include "parser/bind/say.h"
 #include "parser/stages/override.h"
 
@@ -22,7 +23,7 @@ static span at(const struct override *o, size_t begin, size_t end) {
     return (span){o->track.source, first + (uint32_t)begin, first + (uint32_t)(last > begin ? last : begin)};
 }
 
-enum diag_code override_code(const struct override *o, enum diag_code code) {
+diag_code override_code(const struct override *o, diag_code code) {
     return o->is_track ? DIAG_TRACK_TARGET : code;
 }
 

@@ -1,3 +1,4 @@
+#include "diag/codes/binding.h"
 #include "parser/bind/say.h"
 #include "parser/bind/visit.h"
 #include "parser/stages/override.h"

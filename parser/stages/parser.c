@@ -1,4 +1,5 @@
 #include "parser/parser.h"
+#include "diag/codes/limit.h"
 
 #include "core/clock.h"
 #include "core/heap.h"

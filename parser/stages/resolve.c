@@ -1,4 +1,7 @@
 // Includes: which files belong to the scene, in which order, and why one cannot be read.
+#include "diag/codes/file.h"
+#include "diag/codes/limit.h"
+#include "diag/codes/reference.h"
 #include "diag/diag_outside.h"
 #include "grammar/ir.h"
 #include "parser/stages/loader.h"

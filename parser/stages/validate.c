@@ -1,4 +1,6 @@
 // The rules that a table cannot say, on the merged scene. Each one looks only at rows that are not poisoned.
+#include "diag/codes/binding.h"
+#include "diag/codes/rule.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/stages/loader.h"

@@ -1,4 +1,5 @@
 // The markers that version control leaves in a file that two people changed at one place.
+#include "diag/codes/syntax.h"
 #include "parser/tree/reader_text.h"
 
 #include <string.h>

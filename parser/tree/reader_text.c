@@ -1,4 +1,6 @@
 #include "parser/tree/reader_text.h"
+#include "diag/codes/limit.h"
+#include "diag/codes/syntax.h"
 
 #include <inttypes.h>
 

@@ -1,5 +1,6 @@
 // Links what is in the file into the tree, whichever file found it: read_xml.c with expat, or
 // read_xml_plain.c.
+#include "diag/codes/syntax.h"
 #include "parser/xml/xml_reader.h"
 
 #include "core/number.h"

@@ -1,3 +1,5 @@
+#include "diag/codes/limit.h"
+#include "diag/codes/syntax.h"
 #include "parser/xml/xml_reader.h"
 
 #include "core/nearest.h"

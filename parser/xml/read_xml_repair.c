@@ -1,3 +1,4 @@
+#include "diag/codes/syntax.h"
 #include "parser/xml/xml_reader.h"
 
 #include "core/str_map.h"

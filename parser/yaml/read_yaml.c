@@ -1,3 +1,6 @@
+#include "diag/codes/binding.h"
+#include "diag/codes/limit.h"
+#include "diag/codes/syntax.h"
 #include "parser/yaml/yaml_memory.h"
 #include "parser/yaml/yaml_reader.h"
 

@@ -1,4 +1,5 @@
 #include "core/nearest.h"
+#include "diag/codes/syntax.h"
 #include "parser/yaml/yaml_reader.h"
 
 uint32_t yaml_anchor_add(struct yaml_reader *r, str name, span at, tree_index node) {

@@ -1,3 +1,4 @@
+#include "diag/codes/syntax.h"
 #include "parser/yaml/yaml_reader.h"
 
 #include <string.h>

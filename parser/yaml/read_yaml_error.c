@@ -1,3 +1,6 @@
+#include "diag/codes/binding.h"
+#include "diag/codes/limit.h"
+#include "diag/codes/syntax.h"
 #include "parser/yaml/yaml_reader.h"
 
 #include <string.h>
@@ -9,7 +12,7 @@ struct yaml_words {
     const char *message;
     const char *note; // at the context's place; NULL: none
     const char *help; // NULL: none
-    enum diag_code code;
+    diag_code code;
     bool at_context; // the mistake is where the context begins
 };
 

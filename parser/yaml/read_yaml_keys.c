@@ -1,3 +1,4 @@
+#include "diag/codes/syntax.h"
 #include "parser/yaml/yaml_reader.h"
 
 // Links the pairs of `map` after the children of the frame.

@@ -11,6 +11,7 @@
 // Small pictures by the reference, which runs where there is no device, and with --device by a device; then
 // it ends with 77 where there is none. Files come from memory; the scene around them is written here.
 #include "core/strbuf.h"
+#include "diag/codes/device.h"
 #include "diag/diag_text.h"
 #include "grammar/print/ir_print.h"
 #include "load/check.h"

@@ -1,5 +1,6 @@
 // What the writers and the table's examples make is read back without an error; comments survive; values
 // just outside a range are refused in both spellings.
+#include "diag/codes/binding.h"
 #include "grammar/emit/emit_words.h"
 #include "grammar/emit/example.h"
 #include "grammar/ir.h"
@@ -92,7 +93,7 @@ static void *find_in(const struct schema_element *wanted, const struct schema_el
 static void check_value(const struct schema_element *schema, uint32_t i, double value, bool xml) {
     const struct schema_row *row = &schema->rows[i];
     bool good = schema_in_range(row->range, value);
-    enum diag_code wanted = row->range == SCHEMA_RANGE_VERSION ? DIAG_BAD_VERSION : DIAG_OUT_OF_RANGE;
+    diag_code wanted = row->range == SCHEMA_RANGE_VERSION ? DIAG_BAD_VERSION : DIAG_OUT_OF_RANGE;
     struct arena arena;
     struct strbuf text;
     struct loaded loaded;

@@ -24,8 +24,8 @@ static void judge(const struct config *config) {
     static const char *const paths[] = {"/", "/none/a.glint.yaml", "/none/x/y/z/a.obj", "relative"};
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++)
         diag_policy_ignores(&config->policy, str_from(paths[i]));
-    for (int i = 0; i < DIAG_CODE_COUNT; i++) {
-        struct diag item = {.code = (enum diag_code)i, .severity = diag_info((enum diag_code)i)->severity};
+    for (diag_code i = diag_next(-1); i < DIAG_CODE_COUNT; i = diag_next(i)) {
+        struct diag item = {.code = i, .severity = diag_info(i)->severity};
         bool was_error = item.severity == DIAG_ERROR;
         bool kept = diag_policy_keeps(&config->policy, &item, true);
         require(!was_error || (kept && item.severity == DIAG_ERROR), "errors stay errors");

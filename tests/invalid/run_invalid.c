@@ -199,8 +199,8 @@ static int complete(const char *corpus) {
     } kinds[] = {
         {DIAG_IN_YAML, "yaml"}, {DIAG_IN_XML, "xml"}, {DIAG_IN_MESH, "mesh"}, {DIAG_IN_IMAGE, "image"}};
     int missing = 0;
-    for (int i = 0; i < DIAG_CODE_COUNT; i++) {
-        const struct diag_info *info = diag_info((enum diag_code)i);
+    for (diag_code i = diag_next(-1); i < DIAG_CODE_COUNT; i = diag_next(i)) {
+        const struct diag_info *info = diag_info(i);
         for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
             if (!(info->where & kinds[k].where) || has_case(corpus, info->code, kinds[k].kind))
                 continue;

@@ -1,6 +1,7 @@
 // Bodies: transforms in double with the origin taken off first, then scale, then rounding to float.
 #include "core/heap.h"
 #include "core/parallel.h"
+#include "diag/codes/rule.h"
 #include "scene/shape.h"
 #include "shaders/frame.h"
 #include "tracer/bvh/items.h"

@@ -1,5 +1,6 @@
 // Media (scene/media.h): the numbers by which rays know what they are inside.
 #include "core/heap.h"
+#include "diag/codes/limit.h"
 #include "shaders/features.h"
 #include "shaders/gpu_scene.h"
 #include "tracer/flatten/flatten_parts.h"

@@ -2,6 +2,7 @@
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "core/srgb.h"
+#include "diag/codes/limit.h"
 #include "shaders/features.h"
 #include "tracer/flatten/flatten_parts.h"
 

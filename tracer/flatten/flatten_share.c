@@ -7,6 +7,7 @@
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "core/quantile.h"
+#include "diag/codes/limit.h"
 #include "scene/mesh_use.h"
 #include "tracer/flatten/flatten_parts.h"
 

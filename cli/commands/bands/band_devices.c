@@ -1,6 +1,7 @@
 // The devices that share a picture's bands, as --device names them.
 #include "cli/commands/bands/bands_run.h"
 #include "cli/device.h"
+#include "diag/codes/limit.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -4,6 +4,8 @@
 #include "cli/made.h"
 #include "core/clock.h"
 
+#include "diag/codes/file.h"
+#include "diag/codes/limit.h"
 #include "grammar/ir.h"
 
 #include <stdio.h>

@@ -3,6 +3,8 @@
 #include "cli/commands/bands/bands_run.h"
 #include "cli/device.h"
 #include "core/ranges.h"
+#include "diag/codes/command.h"
+#include "diag/codes/limit.h"
 #include "grammar/ir.h"
 #include "picture/write/rows.h"
 

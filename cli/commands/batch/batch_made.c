@@ -1,6 +1,8 @@
 // Pictures of a batch after tracing: encoded and written beside the next one's tracing.
 #include "cli/commands/batch/batch_run.h"
 #include "cli/made.h"
+#include "diag/codes/command.h"
+#include "diag/codes/limit.h"
 
 #include <string.h>
 

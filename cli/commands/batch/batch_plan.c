@@ -1,6 +1,9 @@
 // From the command line to jobs: scenes, in each the sweep's grid, in each the frames, in each the cameras.
 #include "cli/commands/batch/batch_job.h"
 #include "core/expression.h"
+#include "diag/codes/command.h"
+#include "diag/codes/file.h"
+#include "diag/codes/limit.h"
 #include "files/stream.h"
 #include "grammar/ir.h"
 

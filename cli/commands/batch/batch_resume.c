@@ -6,6 +6,7 @@
 // ends the process, a slot is there or not, by its seal.
 #include "cli/commands/batch/batch_run.h"
 #include "core/hash128.h"
+#include "diag/codes/command.h"
 #include "files/stream.h"
 #include "grammar/ir.h"
 #include "render/parts/bands.h"

@@ -7,6 +7,7 @@
 #include "cli/device.h"
 #include "cli/made.h"
 #include "core/clock.h"
+#include "diag/codes/limit.h"
 #include "grammar/ir.h"
 
 #include <string.h>

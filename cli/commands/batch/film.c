@@ -2,6 +2,7 @@
 
 #include "cli/made.h"
 #include "core/heap.h"
+#include "diag/codes/command.h"
 #include "files/sandbox.h"
 #include "files/spawn.h"
 

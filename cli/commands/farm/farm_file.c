@@ -2,6 +2,8 @@
 #include "cli/commands/farm/farm.h"
 #include "cli/commands/rendering.h"
 #include "cli/made.h"
+#include "diag/codes/command.h"
+#include "diag/codes/file.h"
 #include "files/stream.h"
 #include "render/frames/frame_name.h"
 

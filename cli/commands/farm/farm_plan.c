@@ -2,6 +2,7 @@
 #include "cli/commands/batch/batch_job.h"
 #include "cli/commands/farm/farm.h"
 #include "cli/commands/rendering.h"
+#include "diag/codes/file.h"
 #include "render/frames/frame_name.h"
 #include "render/parts/part_file.h"
 

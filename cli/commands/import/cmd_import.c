@@ -1,6 +1,9 @@
 // glint import MESH -o SCENE: a scene to go on with, and the images that it needs beside it.
 #include "cli/commands/commands.h"
 #include "cli/made.h"
+#include "diag/codes/command.h"
+#include "diag/codes/file.h"
+#include "diag/codes/limit.h"
 #include "edit/convert.h"
 #include "grammar/mesh_format.h"
 #include "grammar/schema.h"

@@ -1,6 +1,7 @@
 #include "cli/commands/inspect/inspect.h"
 
 #include "core/json_write.h"
+#include "diag/codes/file.h"
 #include "files/files.h"
 #include "picture/metrics/picture_file.h"
 #include "render/record/record.h"

@@ -1,6 +1,8 @@
 // glint lsp: the language server, over standard input and output.
 #include "cli/commands/commands.h"
 #include "cli/device.h"
+#include "diag/codes/command.h"
+#include "diag/codes/file.h"
 #include "lsp/server.h"
 #include "render/preview/preview.h"
 

@@ -4,6 +4,8 @@
 #include "cli/device.h"
 #include "cli/made.h"
 #include "cli/progress.h"
+#include "diag/codes/device.h"
+#include "diag/codes/limit.h"
 #include "grammar/ir.h"
 #include "render/live/live_report.h"
 #include "window/viewer.h"

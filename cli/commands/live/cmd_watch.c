@@ -5,6 +5,7 @@
 #include "cli/made.h"
 #include "cli/progress.h"
 #include "core/clock.h"
+#include "diag/codes/limit.h"
 #include "grammar/ir.h"
 #include "picture/write/image.h"
 #include "render/live/coarse.h"

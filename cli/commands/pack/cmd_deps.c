@@ -2,6 +2,7 @@
 #include "cli/commands/commands.h"
 
 #include "core/json_write.h"
+#include "diag/codes/limit.h"
 #include "load/inventory.h"
 
 #include <string.h>

@@ -3,6 +3,8 @@
 #include "cli/commands/pack/pack_scene.h"
 
 #include "cli/progress.h"
+#include "diag/codes/command.h"
+#include "diag/codes/limit.h"
 #include "edit/pack/pack.h"
 
 #include <string.h>

@@ -5,6 +5,8 @@
 #include "cli/made.h"
 #include "cli/progress.h"
 #include "core/ranges.h"
+#include "diag/codes/file.h"
+#include "diag/codes/limit.h"
 #include "render/frames/frame_name.h"
 #include "render/job/job_done.h"
 #include "render/parts/parts.h"

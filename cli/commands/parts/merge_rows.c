@@ -2,6 +2,7 @@
 
 #include "cli/commands/pictures/row_files.h"
 #include "core/heap.h"
+#include "diag/codes/file.h"
 #include "render/record/provenance.h"
 
 #include <stdlib.h>

@@ -2,6 +2,7 @@
 #include "cli/commands/rendering.h"
 #include "cli/device.h"
 #include "cli/made.h"
+#include "diag/codes/limit.h"
 #include "grammar/ir.h"
 #include "render/aov/layers.h"
 

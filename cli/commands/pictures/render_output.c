@@ -2,6 +2,7 @@
 #include "cli/commands/rendering.h"
 #include "core/clock.h"
 #include "core/timeline.h"
+#include "diag/codes/limit.h"
 #include "grammar/ir.h"
 
 #include <stdio.h>

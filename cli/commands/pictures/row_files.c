@@ -1,4 +1,5 @@
 #include "cli/commands/pictures/row_files.h"
+#include "diag/codes/limit.h"
 
 #include "cli/made.h"
 

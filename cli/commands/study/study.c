@@ -5,6 +5,8 @@
 #include "core/hash128.h"
 #include "core/nearest.h"
 #include "core/number.h"
+#include "diag/codes/command.h"
+#include "diag/codes/limit.h"
 #include "grammar/ir.h"
 #include "load/session_precision.h"
 #include "measure/tradeoff/report/report.h"

@@ -1,6 +1,8 @@
 // glint test FOLDER: every picture of a folder, rendered again and compared with its reference.
 #include "cli/commands/commands.h"
 #include "cli/commands/test/test.h"
+#include "diag/codes/command.h"
+#include "diag/codes/limit.h"
 
 #include "core/clock.h"
 

@@ -6,6 +6,9 @@
 #include "cli/untrusted.h"
 #include "core/nearest.h"
 #include "core/str_map.h"
+#include "diag/codes/command.h"
+#include "diag/codes/file.h"
+#include "diag/codes/limit.h"
 #include "files/files_walk.h"
 #include "files/glob.h"
 
@@ -73,7 +76,7 @@ static str test_pictures_folder(struct test_run *run) {
 }
 
 // A mistake at its place in the file.
-static int report(struct test_run *run, enum diag_code code, span at, str message, str help) {
+static int report(struct test_run *run, diag_code code, span at, str message, str help) {
     struct diag_sink sink;
     diag_sink_init(&sink);
     diag_add(&sink, code, at, "%.*s", STR_ARG(message));

@@ -6,6 +6,8 @@
 #include "cli/progress.h"
 #include "core/clock.h"
 #include "core/nearest.h"
+#include "diag/codes/limit.h"
+#include "diag/codes/reference.h"
 #include "grammar/ir.h"
 #include "load/check.h"
 #include "render/job/job.h"

@@ -6,6 +6,8 @@
 #include "cli/device.h"
 #include "core/heap.h"
 #include "core/number.h"
+#include "diag/codes/file.h"
+#include "diag/codes/limit.h"
 #include "files/files.h"
 #include "grammar/ir.h"
 #include "render/record/provenance.h"

@@ -3,6 +3,7 @@
 
 #include "core/parallel.h"
 #include "core/timeline.h"
+#include "diag/codes/file.h"
 #include "scratch.h"
 
 #include <utime.h>
@@ -102,7 +103,7 @@ static void meshes_side_by_side(void **state) {
     assets_scene_load(s);
     // The faulty one is read again, for what is wrong with it.
     assert_int_equal(timeline.count, parallel_processors() > 1 ? 6 : 5);
-    const enum diag_code codes[] = {DIAG_FILE_MISSING, DIAG_MESH_INDEX, DIAG_MESH_DROPPED}; // sorted by file
+    const diag_code codes[] = {DIAG_FILE_MISSING, DIAG_MESH_INDEX, DIAG_MESH_DROPPED}; // sorted by file
     assert_int_equal(s->sink.count, 3);
     for (size_t i = 0; i < 3; i++)
         assert_int_equal(s->sink.items[i].code, codes[i]);

@@ -1,5 +1,6 @@
 // Reading OBJ: forms of lines, numbers, indices, groups, and every fault at its place.
 #include "assets_scene.h"
+#include "diag/codes/file.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,7 @@
 // PLY and STL: the same mesh from every form of file, what is said of wrong ones, and files that are damaged.
 #include "assets_scene.h"
 #include "core/splitmix.h"
+#include "diag/codes/file.h"
 #include "mesh_kit.h"
 
 #include <math.h>

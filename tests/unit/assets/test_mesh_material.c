@@ -1,5 +1,7 @@
 // Which material a face has, and what a material file means.
 #include "assets_scene.h"
+#include "diag/codes/file.h"
+#include "diag/codes/rule.h"
 
 #include "core/strbuf.h"
 

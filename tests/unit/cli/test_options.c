@@ -3,6 +3,7 @@
 #include "cli/cli.h"
 #include "cli/commands/manual/manual.h"
 #include "core/ranges.h"
+#include "diag/codes/command.h"
 #include "load/settings/keys.h"
 
 #include <math.h>

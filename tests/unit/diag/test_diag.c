@@ -1,3 +1,8 @@
+#include "diag/codes/binding.h"
+#include "diag/codes/file.h"
+#include "diag/codes/limit.h"
+#include "diag/codes/rule.h"
+#include "diag/codes/syntax.h"
 #include "diag/diag.h"
 #include "diag/diag_share.h"
 #include "diag/diag_text.h"
@@ -56,8 +61,8 @@ static uint32_t add_source(struct fixture *f, const char *text) {
 
 static void codes_are_well_formed_and_unique(void **state) {
     (void)state;
-    for (int i = 0; i < DIAG_CODE_COUNT; i++) {
-        const struct diag_info *info = diag_info((enum diag_code)i);
+    for (diag_code i = diag_next(-1); i < DIAG_CODE_COUNT; i = diag_next(i)) {
+        const struct diag_info *info = diag_info(i);
         assert_int_equal(strlen(info->code), 4);
         assert_int_equal(strspn(info->code + 1, "0123456789"), 3);
         assert_true(info->severity == (info->code[0] == 'E'   ? DIAG_ERROR
@@ -70,8 +75,8 @@ static void codes_are_well_formed_and_unique(void **state) {
         assert_true(info->meaning[strlen(info->meaning) - 1] == '.');
         assert_true(info->remedy[strlen(info->remedy) - 1] == '.');
         assert_int_equal(diag_find(str_from(info->code)), i);
-        for (int j = 0; j < i; j++)
-            assert_string_not_equal(info->code, diag_info((enum diag_code)j)->code);
+        for (diag_code j = diag_next(-1); j < i; j = diag_next(j))
+            assert_string_not_equal(info->code, diag_info(j)->code);
     }
 }
 
@@ -470,7 +475,7 @@ static void colours(void **state) {
 
 static void caps_what_is_shown_but_not_the_first_error(void **state) {
     struct fixture *f = *state;
-    static const enum diag_code warnings[] = {DIAG_OPEN_DIELECTRIC, DIAG_CAMERA_INSIDE, DIAG_LIGHT_INSIDE};
+    static const diag_code warnings[] = {DIAG_OPEN_DIELECTRIC, DIAG_CAMERA_INSIDE, DIAG_LIGHT_INSIDE};
     for (uint32_t i = 0; i < 3; i++)
         diag_add(&f->sink, warnings[i], (span){0, i, i}, "warning %u", i);
     diag_add(&f->sink, DIAG_LIMIT, (span){0, 7, 7}, "why it failed");
@@ -504,7 +509,7 @@ static void cuts_what_is_alike(void **state) {
 
 // ---- shares of the room
 
-static uint32_t shown_of(struct fixture *f, struct diag_share share, enum diag_code code, uint32_t source) {
+static uint32_t shown_of(struct fixture *f, struct diag_share share, diag_code code, uint32_t source) {
     uint32_t shown = 0;
     for (uint32_t i = 0; i < f->sink.count; i++) {
         const struct diag *item = &f->sink.items[i];

@@ -1,3 +1,6 @@
+#include "diag/codes/binding.h"
+#include "diag/codes/file.h"
+#include "diag/codes/rule.h"
 #include "diag/diag_policy.h"
 
 #include <setjmp.h>
@@ -16,7 +19,7 @@ static int set_up(void **state) {
     return 0;
 }
 
-static bool keeps(enum diag_code code, enum diag_severity *severity) {
+static bool keeps(diag_code code, enum diag_severity *severity) {
     struct diag item = {.code = code, .severity = diag_info(code)->severity};
     bool kept = diag_policy_keeps(&policy, &item, false);
     *severity = item.severity;

@@ -1,4 +1,6 @@
 #include "core/json_write.h"
+#include "diag/codes/binding.h"
+#include "diag/codes/rule.h"
 #include "diag/diag_report.h"
 
 #include <setjmp.h>
@@ -96,8 +98,8 @@ static void findings_are_copied(void **state) {
 static void the_first_error_has_room(void **state) {
     (void)state;
     uint32_t source = add_source("a.yaml", "0123456789");
-    static const enum diag_code warnings[] = {DIAG_OPEN_DIELECTRIC, DIAG_CAMERA_INSIDE, DIAG_LIGHT_INSIDE,
-                                              DIAG_INDEX_ONE, DIAG_AMPLIFYING};
+    static const diag_code warnings[] = {DIAG_OPEN_DIELECTRIC, DIAG_CAMERA_INSIDE, DIAG_LIGHT_INSIDE,
+                                         DIAG_INDEX_ONE, DIAG_AMPLIFYING};
     for (uint32_t i = 0; i < 5; i++)
         diag_add(&f.sink, warnings[i], (span){source, i, i + 1}, "w%u", i);
     diag_add(&f.sink, DIAG_OUT_OF_RANGE, (span){source, 8, 9}, "e");

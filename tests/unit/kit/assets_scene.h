@@ -145,7 +145,7 @@ static inline const char *assets_scene_text(struct assets_scene *s) {
 }
 
 // How many diagnostics of this code there are.
-static inline uint32_t assets_scene_count(const struct assets_scene *s, enum diag_code code) {
+static inline uint32_t assets_scene_count(const struct assets_scene *s, diag_code code) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < s->sink.count; i++)
         count += s->sink.items[i].code == code;

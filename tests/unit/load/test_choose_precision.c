@@ -1,5 +1,6 @@
 // The precision of a shot: setting, scene and device together, and what is said about it.
 #include "device_kit.h"
+#include "diag/codes/device.h"
 #include "grammar/ir.h"
 #include "load/session_precision.h"
 

@@ -1,5 +1,8 @@
 // Scenes that are bound entry by entry while they are read: the same words and scenes as otherwise, in little
 // memory.
+#include "diag/codes/binding.h"
+#include "diag/codes/limit.h"
+#include "diag/codes/syntax.h"
 #include "grammar/ir.h"
 #include "grammar/print/ir_print.h"
 #include "grammar/schema.h"

@@ -1,4 +1,5 @@
 // Images: every kind that is read, what is ignored, and files that lie about themselves.
+#include "diag/codes/limit.h"
 #include "picture/read/picture_read.h"
 
 #include "assets_scene.h"

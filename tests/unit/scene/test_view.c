@@ -1,4 +1,5 @@
 // Cameras, lights, rotations and colours, against values worked out by hand.
+#include "diag/codes/rule.h"
 #include "scene/transform.h"
 #include "scene/view.h"
 

@@ -1,4 +1,6 @@
 // Scenes to buffers: what docs/decisions/numbers.md promises, at the level of bits.
+#include "diag/codes/limit.h"
+#include "diag/codes/rule.h"
 #include "flat_kit.h"
 #include "scene/transform.h"
 #include "shaders/features.h"

@@ -1,5 +1,6 @@
 // Every allocation of flattening fails once: each time the sink says so and nothing is left behind
 // (the sanitizer build looks for leaks). And what flattening takes at most, against what it gives.
+#include "diag/codes/limit.h"
 #include "flat_kit.h"
 
 #include <malloc.h>
