@@ -7,7 +7,7 @@
 // Milliseconds by the clock and of processor time, the least of the rounds; bytes of the file.
 #include "kit.h"
 #include "picture/read/picture_read.h"
-#include "picture/write/encode_parts.h"
+#include "picture/write/encode_internal.h"
 
 #include <errno.h>
 #include <png.h>

@@ -1,6 +1,6 @@
 #include "diag/codes/limit.h"
 #include "diag/codes/rule.h"
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 // The rules in the order of their codes.
 const struct lint_rule lint_rules[] = {

@@ -1,5 +1,5 @@
 // Bodies, meshes and cameras as the rules need them.
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 #include "grammar/ir.h"
 #include "scene/shape.h"

@@ -1,5 +1,5 @@
 // Where findings are reported and what they call things.
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 #include "assets/file/asset_file.h"
 #include "grammar/ir.h"

@@ -5,7 +5,7 @@
 // only where a camera could see both: the bottom of a box on a floor is hidden by the box.
 #include "diag/codes/rule.h"
 #include "lint/body_pairs.h"
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 #include "scene/media.h"
 
 #include "grammar/ir.h"

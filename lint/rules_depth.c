@@ -4,7 +4,7 @@
 // opaque one and as long as its throughput is at least min_weight, are the depth that it needs. Bending is
 // left out: it moves the layers in the picture, and hardly changes their number.
 #include "diag/codes/rule.h"
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 #include "core/heap.h"
 #include "core/number.h"

@@ -1,6 +1,6 @@
 // Values that nothing uses: what is written has no effect on the picture.
 #include "diag/codes/rule.h"
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 #include "grammar/ir.h"
 

@@ -1,6 +1,6 @@
 // Images of more texels than a picture can show.
 #include "diag/codes/rule.h"
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 #include "grammar/ir.h"
 

@@ -1,7 +1,7 @@
 // Cameras and lights inside bodies, lights on surfaces.
 #include "diag/codes/rule.h"
 #include "lint/box_tree.h"
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 #include "grammar/ir.h"
 #include "scene/shape.h"

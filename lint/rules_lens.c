@@ -1,6 +1,6 @@
 // Lenses and rough surfaces: where they cannot show what they are for, and where rays begin inside bodies.
 #include "diag/codes/rule.h"
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 #include "grammar/ir.h"
 

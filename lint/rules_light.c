@@ -1,6 +1,6 @@
 // Lights with extent: at too few samples, around bodies and cameras; ambient light; backgrounds that light.
 #include "diag/codes/rule.h"
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 #include "grammar/ir.h"
 

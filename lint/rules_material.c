@@ -1,6 +1,6 @@
 // Weights and indices: what a material can and cannot do with light.
 #include "diag/codes/rule.h"
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 #include "core/number.h"
 #include "grammar/ir.h"

@@ -10,7 +10,7 @@
 #include "diag/codes/rule.h"
 #include "lint/body_pairs.h"
 #include "lint/box_tree.h"
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 #include "grammar/ir.h"
 #include "scene/media.h"

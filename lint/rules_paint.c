@@ -5,7 +5,7 @@
 // the pixels that it covers. What lies in front of a body is left out: it covers fine parts and coarse ones
 // alike.
 #include "diag/codes/rule.h"
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 #include "core/heap.h"
 #include "grammar/ir.h"

@@ -1,6 +1,6 @@
 // Panels that light nothing, and those in the plane of a face.
 #include "diag/codes/rule.h"
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 #include "grammar/ir.h"
 

@@ -1,6 +1,6 @@
 // How many samples pixels take, and may take.
 #include "diag/codes/rule.h"
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 #include "grammar/ir.h"
 

@@ -1,6 +1,6 @@
 // Meshes that refract and whose faces disagree on which side is outside, or that cross themselves.
 #include "diag/codes/rule.h"
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 #include "core/heap.h"
 

@@ -1,6 +1,6 @@
 // Triangles one by one: without area, given twice, with normals that oppose them.
 #include "diag/codes/rule.h"
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 static str others(struct lint *lint, const struct lint_mesh *mesh) {
     if (mesh->model_count == 1)

@@ -3,7 +3,7 @@
 // A body counts as unseen where its box lies wholly outside the field of each camera, nothing mirrors or
 // refracts, and it can cast no shadow into a field either.
 #include "diag/codes/rule.h"
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 #include "grammar/ir.h"
 

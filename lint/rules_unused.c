@@ -1,7 +1,7 @@
 // What the scene holds and nothing uses.
 #include "diag/codes/rule.h"
 #include "grammar/ir_walk.h"
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 struct use {
     const struct schema_row *materials; // the scene's list of them

@@ -7,7 +7,7 @@
 // finds, in the order of the curve, is then looked through for each of them. Boxes are compared as floats,
 // rounded outward, several at a time; what may overlap is decided in double precision, so that the same
 // pairs are found as without.
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 #include "core/parallel.h"
 

@@ -1,5 +1,5 @@
 // From the scene's bodies and materials to those that rays are traced against.
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 #include "scene/shape.h"
 #include "scene/transform.h"
 

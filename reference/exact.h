@@ -1,11 +1,12 @@
 // What double precision leaves open about a ray and a triangle, decided with twice the digits. Private to
 // reference/.
 //
-// Begin with exact_begin, once a ray. Positions as in parts.h. Errors: none. Thread safety: pure.
+// Begin with exact_begin, once a ray. Positions as in reference_internal.h. Errors: none. Thread safety:
+// pure.
 #ifndef GLINT_REFERENCE_EXACT_H
 #define GLINT_REFERENCE_EXACT_H
 
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 #include "reference/wide.h"
 
 struct exact_ray {

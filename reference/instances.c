@@ -6,7 +6,7 @@
 // triangle. In mesh space it is N (o - c) + t N d = p + (N M - 1) p + N e: e is what vertices, the ray's
 // start and the operations here are off by, a few units of the numbers that they are computed from, and N M -
 // 1 is measured. The ray's origin is moved by the sum, to either side of each plane.
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 
 #include "scene/mesh_use.h"
 #include "scene/transform.h"

@@ -1,6 +1,6 @@
 // What a ray hits: boxes, triangles, spheres.
 #include "reference/exact.h"
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 
 #include <assert.h>
 

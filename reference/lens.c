@@ -1,5 +1,5 @@
 // The camera's rays (docs/language.md, "Camera", "Projections" and "Lens").
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 
 #include "grammar/ir.h"
 

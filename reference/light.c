@@ -3,7 +3,7 @@
 #include "core/angle.h"
 #include "core/float_bits.h"
 #include "core/srgb.h"
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 
 #include "grammar/ir.h"
 

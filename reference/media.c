@@ -1,6 +1,6 @@
 // Which media a ray is inside (docs/language.md, "Media").
 #include "core/heap.h"
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 
 #include <stdlib.h>
 

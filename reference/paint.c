@@ -6,7 +6,7 @@
 // Cones"). How coordinates change across it is found by what areas change on a triangle, and by differences
 // on a sphere, not by derivatives: so nothing here is what the device does.
 #include "core/angle.h"
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 
 #include "grammar/ir.h"
 #include "scene/shape.h"

@@ -1,6 +1,6 @@
 // One sample: its paths, ray by ray (docs/language.md, "Depth and weight").
 #include "core/heap.h"
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
 // Where a ray starts that leaves a surface, so that it does not hit that surface again.
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 
 // Displaced by the point's error, then one number outward (Pharr, Jakob, Humphreys 2023, section 6.8.6). Not
 // only by the error along the normal: that along the surface can carry the point across an edge.

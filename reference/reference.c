@@ -4,7 +4,7 @@
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "grammar/ir.h"
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>

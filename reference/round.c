@@ -1,5 +1,5 @@
 // Points of discs and of frames around a vector: the same samples as every tracer's.
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 
 void reference_disc(double across, double down, double *x, double *y) {
     const double u = 2 * across - 1, v = 2 * down - 1;

@@ -2,7 +2,7 @@
 // place, up or down at random (Parker 1997, "Monte Carlo Arithmetic"), drawn from the number's own bits, so
 // that every run draws the same.
 #include "core/splitmix.h"
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 // Lights that rays see (docs/language.md, "Lights that are seen").
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 
 #include "grammar/ir.h"
 

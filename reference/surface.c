@@ -1,7 +1,7 @@
 // What a ray hit, and where light comes from that leaves it (docs/language.md, "Hit" and "Checker").
 #include "core/angle.h"
 #include "reference/exact.h"
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 
 #include "scene/shape.h"
 #include "scene/transform.h"

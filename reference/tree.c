@@ -5,7 +5,7 @@
 // every node's place is known before its children are built, and the tree does not depend on threads.
 #include "core/heap.h"
 #include "core/parallel.h"
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 
 #include <assert.h>
 #include <stdlib.h>

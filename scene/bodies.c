@@ -6,7 +6,7 @@
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 #include "scene/mesh_use.h"
-#include "scene/scene_parts.h"
+#include "scene/scene_internal.h"
 #include "scene/shape.h"
 #include "scene/transform.h"
 

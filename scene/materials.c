@@ -1,7 +1,7 @@
 // Colours, materials and the background.
 #include "core/srgb.h"
 #include "grammar/ir_features.h"
-#include "scene/scene_parts.h"
+#include "scene/scene_internal.h"
 #include "scene/shape.h"
 #include "scene/transform.h"
 

@@ -3,7 +3,7 @@
 #include "core/parallel.h"
 #include "core/srgb.h"
 #include "grammar/ir.h"
-#include "scene/scene_parts.h"
+#include "scene/scene_internal.h"
 #include "scene/transform.h"
 
 #include <math.h>

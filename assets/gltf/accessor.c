@@ -1,5 +1,5 @@
 // What accessors hold: numbers of any type, with their sparse values, and the corners of triangles.
-#include "assets/gltf/parts.h"
+#include "assets/gltf/gltf_internal.h"
 #include "core/float_bits.h"
 #include "core/heap.h"
 #include "diag/codes/file.h"

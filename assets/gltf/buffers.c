@@ -1,6 +1,6 @@
 // Buffers, views of them and accessors: what the bytes of a file are, checked by their counts before any is
 // read.
-#include "assets/gltf/parts.h"
+#include "assets/gltf/gltf_internal.h"
 #include "diag/codes/file.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
 // The two forms of a glTF file: JSON as it is, and GLB, a header with chunks.
-#include "assets/gltf/parts.h"
+#include "assets/gltf/gltf_internal.h"
 #include "diag/codes/file.h"
 
 enum {

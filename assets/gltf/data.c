@@ -1,5 +1,5 @@
 // The bytes of buffers: the binary chunk of the file, `data:` addresses, files beside it.
-#include "assets/gltf/parts.h"
+#include "assets/gltf/gltf_internal.h"
 #include "diag/codes/file.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "assets/gltf/parts.h"
+#include "assets/gltf/gltf_internal.h"
 #include "diag/codes/file.h"
 
 // What is read and shown, or changes nothing that is shown.

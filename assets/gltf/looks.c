@@ -1,5 +1,5 @@
 // Images, textures and materials.
-#include "assets/gltf/parts.h"
+#include "assets/gltf/gltf_internal.h"
 #include "core/str_map.h"
 #include "diag/codes/file.h"
 

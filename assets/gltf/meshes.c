@@ -1,5 +1,5 @@
 // Meshes: which accessors their primitives take, and whether these fit together.
-#include "assets/gltf/parts.h"
+#include "assets/gltf/gltf_internal.h"
 #include "diag/codes/file.h"
 
 // The accessor of an attribute; GLTF_NONE: it has none, or what is wrong was reported.

@@ -1,5 +1,5 @@
 // Cameras, lights, and the trees of nodes that place them and meshes.
-#include "assets/gltf/parts.h"
+#include "assets/gltf/gltf_internal.h"
 #include "diag/codes/file.h"
 
 #include <math.h>

@@ -12,7 +12,7 @@
 #include "files/output.h"
 #include "grammar/ir.h"
 #include "load/session.h"
-#include "picture/write/encode_parts.h"
+#include "picture/write/encode_internal.h"
 #include "scene/transform.h"
 
 #include <getopt.h>

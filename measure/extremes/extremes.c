@@ -1,5 +1,5 @@
 #include "core/heap.h"
-#include "measure/extremes/extremes_parts.h"
+#include "measure/extremes/extremes_internal.h"
 
 #include "core/clock.h"
 #include "core/parallel.h"

@@ -1,5 +1,5 @@
 // Variants of what light does: where lights, lenses, textures, media and samples come to their ends.
-#include "measure/extremes/extremes_parts.h"
+#include "measure/extremes/extremes_internal.h"
 
 #include "grammar/ir_features.h"
 

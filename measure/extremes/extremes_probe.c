@@ -1,6 +1,6 @@
 // Shapes that extremes puts where the scene is: a disc of slivers, two plates in the same plane, two with a
 // gap.
-#include "measure/extremes/extremes_parts.h"
+#include "measure/extremes/extremes_internal.h"
 
 #include <math.h>
 #include <string.h>

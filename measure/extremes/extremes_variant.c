@@ -1,5 +1,5 @@
 // Variants of a scene, made in memory: moved, scaled, seen from afar, of other materials.
-#include "measure/extremes/extremes_parts.h"
+#include "measure/extremes/extremes_internal.h"
 
 #include "grammar/ir_features.h"
 #include "scene/shape.h"

@@ -1,6 +1,6 @@
 // Rows come and go.
 #include "core/heap.h"
-#include "measure/tradeoff/tradeoff_parts.h"
+#include "measure/tradeoff/tradeoff_internal.h"
 #include "shaders/features.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 // A search: few rows, each chosen by those before it, until one is found that keeps what is asked.
 #include "core/clock.h"
 #include "measure/tradeoff/plan/plan_search.h"
-#include "measure/tradeoff/tradeoff_parts.h"
+#include "measure/tradeoff/tradeoff_internal.h"
 
 #include <math.h>
 

@@ -4,7 +4,7 @@
 #include "core/heap.h"
 #include "measure/tradeoff/choose/choose.h"
 #include "measure/tradeoff/plan/plan.h"
-#include "measure/tradeoff/tradeoff_parts.h"
+#include "measure/tradeoff/tradeoff_internal.h"
 #include "shaders/features.h"
 
 #include <math.h>

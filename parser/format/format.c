@@ -1,6 +1,6 @@
 #include "parser/format/format.h"
 
-#include "parser/format/format_parts.h"
+#include "parser/format/format_internal.h"
 
 static bool ends_line(str text) {
     size_t end = text.len;

@@ -1,4 +1,4 @@
-#include "parser/format/format_parts.h"
+#include "parser/format/format_internal.h"
 
 static size_t skip_space(str s, size_t at) {
     while (at < s.len && (char_is_space(s.ptr[at]) || str_yaml_break_length(s, at)))

@@ -1,4 +1,4 @@
-#include "parser/format/format_parts.h"
+#include "parser/format/format_internal.h"
 #include "parser/tree/xml_scan.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "parser/format/format_parts.h"
+#include "parser/format/format_internal.h"
 #include "parser/tree/reader_text.h"
 #include "parser/yaml/yaml_tokens.h"
 

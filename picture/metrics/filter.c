@@ -1,4 +1,4 @@
-#include "picture/metrics/metrics_parts.h"
+#include "picture/metrics/metrics_internal.h"
 
 #include "core/parallel.h"
 

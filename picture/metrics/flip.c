@@ -7,7 +7,7 @@
 // of products of one-dimensional ones, so that each is two passes.
 #include "core/angle.h"
 #include "core/heap.h"
-#include "picture/metrics/metrics_parts.h"
+#include "picture/metrics/metrics_internal.h"
 
 #include "core/parallel.h"
 #include "core/srgb.h"

@@ -3,7 +3,7 @@
 #include "core/angle.h"
 #include "core/heap.h"
 #include "core/srgb.h"
-#include "picture/write/encode_parts.h"
+#include "picture/write/encode_internal.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 
 #include "core/heap.h"
 #include "core/parallel.h"
-#include "picture/metrics/metrics_parts.h"
+#include "picture/metrics/metrics_internal.h"
 
 #include <math.h>
 #include <stdlib.h>

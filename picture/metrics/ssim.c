@@ -1,7 +1,7 @@
 // Structural similarity: Wang, Bovik, Sheikh, Simoncelli 2004, "Image Quality Assessment: From Error
 // Visibility to Structural Similarity", equations 12 and 13 with the window and constants of section III-C.
 #include "core/heap.h"
-#include "picture/metrics/metrics_parts.h"
+#include "picture/metrics/metrics_internal.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 // A picture as a file of the format asked for.
 #include "core/heap.h"
-#include "picture/write/encode_parts.h"
+#include "picture/write/encode_internal.h"
 #include "picture/write/image.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 // OpenEXR: linear floats or halves in the channels R, G and B, and layers beside them.
 #include "core/heap.h"
-#include "picture/write/encode_parts.h"
+#include "picture/write/encode_internal.h"
 #include "picture/write/exr_file.h"
 #include "picture/write/rows.h"
 

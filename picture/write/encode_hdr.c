@@ -1,7 +1,7 @@
 // Radiance pictures: three mantissas and a shared exponent per pixel (Ward 1991, "Real Pixels"), each row
 // as four run-length coded planes if its width allows.
 #include "core/heap.h"
-#include "picture/write/encode_parts.h"
+#include "picture/write/encode_internal.h"
 #include "picture/write/image.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 // JPEG through libjpeg-turbo: baseline, its chroma halved below the quality where that shows.
-#include "picture/write/encode_parts.h"
+#include "picture/write/encode_internal.h"
 #include "picture/write/image.h"
 
 #include "core/heap.h"

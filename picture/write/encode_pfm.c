@@ -1,5 +1,5 @@
 // Portable float map: a scale of -1 says little endian; rows go from the bottom up.
-#include "picture/write/encode_parts.h"
+#include "picture/write/encode_internal.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 // PNG (ISO/IEC 15948) through libpng, with data that are deflated already (png_data.h).
-#include "picture/write/encode_parts.h"
+#include "picture/write/encode_internal.h"
 #include "picture/write/image.h"
 #include "picture/write/png_data.h"
 #include "picture/write/rows.h"

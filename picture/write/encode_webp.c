@@ -1,7 +1,7 @@
 // WebP through libwebp: lossy below the best quality, by its default method, on one thread, so that its bytes
 // are always the same.
 #include "core/heap.h"
-#include "picture/write/encode_parts.h"
+#include "picture/write/encode_internal.h"
 #include "picture/write/image.h"
 
 #include <webp/encode.h>

@@ -1,5 +1,5 @@
 // In place of encode_jpeg.c where glint is built without a writer of JPEG: nobody asks for it there.
-#include "picture/write/encode_parts.h"
+#include "picture/write/encode_internal.h"
 
 void encode_jpeg(uint32_t width, uint32_t height, const uint8_t *rgb, const struct image_texts *texts,
                  unsigned quality, struct strbuf *out) {

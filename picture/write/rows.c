@@ -1,7 +1,7 @@
 #include "picture/write/rows.h"
 
 #include "core/heap.h"
-#include "picture/write/encode_parts.h"
+#include "picture/write/encode_internal.h"
 
 #include <stdlib.h>
 

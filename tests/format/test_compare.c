@@ -1,5 +1,5 @@
 // What the formatter compares what it wrote with: it must see each difference that is more than white space.
-#include "parser/format/format_parts.h"
+#include "parser/format/format_internal.h"
 #include "tests/format/format_kit.h"
 
 #include <setjmp.h>

@@ -17,7 +17,7 @@ compile() { # the copies come first
     "${CC:-cc}" -std=c11 -I"$work" -I. -Itests/unit/kit -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE "$@"
 }
 
-files=$(ours '\.c$' | xargs grep -lE 'scene_material|gpu_material|SCENE_MATERIAL_FIELDS|include "reference/parts.h"')
+files=$(ours '\.c$' | xargs grep -lE 'scene_material|gpu_material|SCENE_MATERIAL_FIELDS|include "reference/reference_internal.h"')
 lacks() {
     for file in $files; do
         ! compile -fsyntax-only "$file" 2>&1 | grep -q 'error:' || echo "$file"

@@ -7,7 +7,7 @@
 #include "core/strbuf.h"
 #include "files/output.h"
 #include "grammar/ir.h"
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 #include "render/reference_shot.h"
 
 #include <stdio.h>

@@ -1,6 +1,6 @@
 // Bodies that share their mesh's triangles in the reference: the same hits and the same pictures, bit for
 // bit, as with triangles of their own; and when that is done.
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 #include "reference_kit.h"
 
 #include <setjmp.h>

@@ -1,5 +1,5 @@
 // Closed rooms, seen from inside: whatever shows the background has slipped through an edge.
-#include "tests/sweep/sweep_parts.h"
+#include "tests/sweep/sweep_internal.h"
 
 // How bright a light outside is: what of it comes through a wall shows as the background does.
 static const double OUTSIDE = 1e6;

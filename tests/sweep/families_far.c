@@ -1,5 +1,5 @@
 // Extremes of distance, size and number.
-#include "tests/sweep/sweep_parts.h"
+#include "tests/sweep/sweep_internal.h"
 
 void sweep_make_telescope(struct sweep_writer *w) {
     const double far = sweep_magnitude(w, 10, 1e6);

@@ -1,5 +1,5 @@
 // Glass and mirrors: what bends a ray several times magnifies each error.
-#include "tests/sweep/sweep_parts.h"
+#include "tests/sweep/sweep_internal.h"
 
 static void any_target(struct sweep_writer *w, double far) {
     const struct sweep_paint paint = sweep_checkered(w, far * sweep_magnitude(w, 1e-3, 0.3));

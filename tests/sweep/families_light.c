@@ -1,6 +1,6 @@
 // What needs more than one sample: a lens, ambient light that is blocked, rough surfaces, lights that have an
 // extent; images; and one mesh in many sizes.
-#include "tests/sweep/sweep_parts.h"
+#include "tests/sweep/sweep_internal.h"
 
 // Of a scene whose pixels need several.
 static uint32_t some_samples(struct sweep_writer *w) {

@@ -1,6 +1,6 @@
 // What magnifies, repeats, stretches and touches.
 #include "core/angle.h"
-#include "tests/sweep/sweep_parts.h"
+#include "tests/sweep/sweep_internal.h"
 
 void sweep_make_blinds(struct sweep_writer *w) {
     const uint32_t count = sweep_count(w, 20, 80);

@@ -1,5 +1,5 @@
 // Checkers, and cameras and lights close to surfaces.
-#include "tests/sweep/sweep_parts.h"
+#include "tests/sweep/sweep_internal.h"
 
 void sweep_make_checker_ball(struct sweep_writer *w) {
     const double radius = sweep_magnitude(w, 0.3, 300);

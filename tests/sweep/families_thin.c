@@ -1,6 +1,6 @@
 // Long triangles, thin gaps, and surfaces in the same plane.
 #include "core/angle.h"
-#include "tests/sweep/sweep_parts.h"
+#include "tests/sweep/sweep_internal.h"
 
 void sweep_make_rails(struct sweep_writer *w) {
     const double length = sweep_magnitude(w, 10, 5e4), width = 0.05;

@@ -1,6 +1,6 @@
 #include "tests/sweep/sweep_scene.h"
 
-#include "tests/sweep/sweep_parts.h"
+#include "tests/sweep/sweep_internal.h"
 
 #include <stdio.h>
 

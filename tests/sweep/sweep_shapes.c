@@ -1,6 +1,6 @@
 // Shapes and groups of bodies that families share.
 #include "core/angle.h"
-#include "tests/sweep/sweep_parts.h"
+#include "tests/sweep/sweep_internal.h"
 
 static void quad(struct sweep_writer *w, uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
     sweep_face(w, a, b, c);

@@ -1,6 +1,6 @@
 // What families are made of, as numbers and as text.
 #include "core/splitmix.h"
-#include "tests/sweep/sweep_parts.h"
+#include "tests/sweep/sweep_internal.h"
 
 #include <stdio.h>
 

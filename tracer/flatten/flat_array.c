@@ -1,6 +1,6 @@
 // Arrays of words for the device.
 #include "core/heap.h"
-#include "tracer/flatten/flatten_parts.h"
+#include "tracer/flatten/flatten_internal.h"
 
 bool flat_array_make(struct flat_array *array, uint64_t words) {
     array->count = words;

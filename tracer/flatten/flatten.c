@@ -6,7 +6,7 @@
 #include "core/parallel.h"
 #include "core/timeline.h"
 #include "tracer/bvh/items.h"
-#include "tracer/flatten/flatten_parts.h"
+#include "tracer/flatten/flatten_internal.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #include "scene/shape.h"
 #include "shaders/frame.h"
 #include "tracer/bvh/items.h"
-#include "tracer/flatten/flatten_parts.h"
+#include "tracer/flatten/flatten_internal.h"
 
 #include <assert.h>
 #include <float.h>

@@ -1,6 +1,6 @@
 // Which bodies send on rays: a GPU begins with the paths that lead to them.
 #include "core/heap.h"
-#include "tracer/flatten/flatten_parts.h"
+#include "tracer/flatten/flatten_internal.h"
 
 // Appends the body if one of its materials reflects or refracts; a body without a mesh has an empty box.
 static void add_body(struct flat_scene *out, const struct scene *scene, const struct scene_body *body) {

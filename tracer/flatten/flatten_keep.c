@@ -1,7 +1,7 @@
 // Geometry of the flat scene of before, shared where nothing that it is made of has changed: of an edited
 // material, light or camera nothing is left to do that grows with the number of triangles.
 #include "scene/shape.h"
-#include "tracer/flatten/flatten_parts.h"
+#include "tracer/flatten/flatten_internal.h"
 
 #include <string.h>
 

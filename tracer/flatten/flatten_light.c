@@ -4,7 +4,7 @@
 #include "core/srgb.h"
 #include "grammar/ir_features.h"
 #include "shaders/features.h"
-#include "tracer/flatten/flatten_parts.h"
+#include "tracer/flatten/flatten_internal.h"
 
 #include <float.h>
 #include <math.h>

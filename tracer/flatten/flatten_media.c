@@ -3,7 +3,7 @@
 #include "diag/codes/limit.h"
 #include "shaders/features.h"
 #include "shaders/gpu_scene.h"
-#include "tracer/flatten/flatten_parts.h"
+#include "tracer/flatten/flatten_internal.h"
 
 #include <assert.h>
 #include <stdlib.h>

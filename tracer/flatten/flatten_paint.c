@@ -4,7 +4,7 @@
 #include "core/srgb.h"
 #include "diag/codes/limit.h"
 #include "shaders/features.h"
-#include "tracer/flatten/flatten_parts.h"
+#include "tracer/flatten/flatten_internal.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "core/parallel.h"
 #include "scene/mesh_use.h"
 #include "scene/shape.h"
-#include "tracer/flatten/flatten_parts.h"
+#include "tracer/flatten/flatten_internal.h"
 
 #include <math.h>
 #include <stdlib.h>

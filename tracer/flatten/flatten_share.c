@@ -9,7 +9,7 @@
 #include "core/quantile.h"
 #include "diag/codes/limit.h"
 #include "scene/mesh_use.h"
-#include "tracer/flatten/flatten_parts.h"
+#include "tracer/flatten/flatten_internal.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -5,7 +5,7 @@
 #include "grammar/ir.h"
 #include "scene/shape.h"
 #include "scene/transform.h"
-#include "tracer/flatten/precision_parts.h"
+#include "tracer/flatten/precision_internal.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 // Gaps between bodies: pairs whose boxes come close, by a sweep along the axis in which they spread most.
 #include "core/heap.h"
-#include "tracer/flatten/precision_parts.h"
+#include "tracer/flatten/precision_internal.h"
 
 #include "grammar/ir.h"
 #include "scene/shape.h"

@@ -1,5 +1,5 @@
 // The least of what is measured, whatever order it is found in.
-#include "tracer/flatten/precision_parts.h"
+#include "tracer/flatten/precision_internal.h"
 
 #include <float.h>
 

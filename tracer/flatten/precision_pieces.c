@@ -4,7 +4,7 @@
 // perpendicular, these are points.
 #include "core/heap.h"
 #include "core/parallel.h"
-#include "tracer/flatten/precision_parts.h"
+#include "tracer/flatten/precision_internal.h"
 
 #include <stdlib.h>
 

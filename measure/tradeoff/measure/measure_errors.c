@@ -2,7 +2,7 @@
 #include "measure/tradeoff/measure/measure.h"
 
 #include "picture/metrics/heatmap.h"
-#include "picture/write/encode_parts.h"
+#include "picture/write/encode_internal.h"
 #include "picture/write/scale.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 // rules.
 #include "diag/diag.h"
 #include "lint/lint.h"
-#include "lint/lint_parts.h"
+#include "lint/lint_internal.h"
 
 // cmocka needs these before itself.
 #include <setjmp.h>

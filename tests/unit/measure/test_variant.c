@@ -1,7 +1,7 @@
 // Variants of a scene that extremes makes: a panel that comes down to a surface, and what is moved and scaled
 // where models are turned and stretched.
 #include "core/angle.h"
-#include "measure/extremes/extremes_parts.h"
+#include "measure/extremes/extremes_internal.h"
 
 #include "assets_scene.h"
 

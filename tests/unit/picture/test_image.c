@@ -1,5 +1,5 @@
 // Tone, transfer and rounding as docs/language.md says, and files that other readers would take.
-#include "picture/write/encode_parts.h"
+#include "picture/write/encode_internal.h"
 #include "picture/write/image.h"
 
 #include "core/parallel.h"

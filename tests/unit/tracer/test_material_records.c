@@ -1,7 +1,7 @@
 // Each field of the list of a material reaches the device: the flat scene differs where the field does, in
 // both precisions. What the reference traces with is the scene's material itself.
 #include "flat_kit.h"
-#include "reference/parts.h"
+#include "reference/reference_internal.h"
 #include "shaders/features.h"
 
 #include <setjmp.h>

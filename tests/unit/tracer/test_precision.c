@@ -1,7 +1,7 @@
 // What of a scene asks for double precision: the features that are measured, and those that are not.
 #include "flat_kit.h"
 #include "random.h"
-#include "tracer/flatten/precision_parts.h"
+#include "tracer/flatten/precision_internal.h"
 
 #include <math.h>
 #include <setjmp.h>

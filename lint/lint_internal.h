@@ -2,8 +2,8 @@
 //
 // Ownership: the arena of the run. Thread safety: the thread of the run; lint_tree_of builds on first use and
 // is not for parallel work.
-#ifndef GLINT_LINT_LINT_PARTS_H
-#define GLINT_LINT_LINT_PARTS_H
+#ifndef GLINT_LINT_LINT_INTERNAL_H
+#define GLINT_LINT_LINT_INTERNAL_H
 
 #include "grammar/schema.h"
 #include "lint/lint.h"

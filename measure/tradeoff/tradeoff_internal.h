@@ -1,7 +1,7 @@
 // What a whole study and a search share. Private to measure/tradeoff. Ownership: the study owns its rows.
 // Thread safety: as tradeoff.h.
-#ifndef GLINT_MEASURE_TRADEOFF_TRADEOFF_PARTS_H
-#define GLINT_MEASURE_TRADEOFF_TRADEOFF_PARTS_H
+#ifndef GLINT_MEASURE_TRADEOFF_TRADEOFF_INTERNAL_H
+#define GLINT_MEASURE_TRADEOFF_TRADEOFF_INTERNAL_H
 
 #include "measure/tradeoff/measure/measure.h"
 

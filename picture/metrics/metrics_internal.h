@@ -2,8 +2,8 @@
 // picture/metrics.
 //
 // Thread safety: pure; planes are the caller's. Errors: false when memory runs out.
-#ifndef GLINT_PICTURE_METRICS_METRICS_PARTS_H
-#define GLINT_PICTURE_METRICS_METRICS_PARTS_H
+#ifndef GLINT_PICTURE_METRICS_METRICS_INTERNAL_H
+#define GLINT_PICTURE_METRICS_METRICS_INTERNAL_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 // What the files of this room share.
-#ifndef GLINT_SCENE_SCENE_PARTS_H
-#define GLINT_SCENE_SCENE_PARTS_H
+#ifndef GLINT_SCENE_SCENE_INTERNAL_H
+#define GLINT_SCENE_SCENE_INTERNAL_H
 
 #include "scene/scene.h"
 

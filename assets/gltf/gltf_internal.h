@@ -1,8 +1,8 @@
 // What the files of this room share.
 //
 // Thread safety: as gltf.h.
-#ifndef GLINT_ASSETS_GLTF_PARTS_H
-#define GLINT_ASSETS_GLTF_PARTS_H
+#ifndef GLINT_ASSETS_GLTF_INTERNAL_H
+#define GLINT_ASSETS_GLTF_INTERNAL_H
 
 #include "assets/gltf/fields.h"
 

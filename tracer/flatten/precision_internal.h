@@ -1,6 +1,6 @@
 // Inside of precision.h: what precision.c, precision_gaps.c and precision_least.c share.
-#ifndef GLINT_TRACER_FLATTEN_PRECISION_PARTS_H
-#define GLINT_TRACER_FLATTEN_PRECISION_PARTS_H
+#ifndef GLINT_TRACER_FLATTEN_PRECISION_INTERNAL_H
+#define GLINT_TRACER_FLATTEN_PRECISION_INTERNAL_H
 
 #include "tracer/flatten/precision.h"
 

@@ -1,6 +1,6 @@
 // The parts of flattening. Private to this room.
-#ifndef GLINT_TRACER_FLATTEN_FLATTEN_PARTS_H
-#define GLINT_TRACER_FLATTEN_FLATTEN_PARTS_H
+#ifndef GLINT_TRACER_FLATTEN_FLATTEN_INTERNAL_H
+#define GLINT_TRACER_FLATTEN_FLATTEN_INTERNAL_H
 
 #include "grammar/ir.h"
 #include "scene/transform.h"

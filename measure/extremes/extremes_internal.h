@@ -2,8 +2,8 @@
 //
 // Ownership: a variant's copies lie in the arena given; meshes and images stay the base's. Where the arena
 // ends, its guard is jumped to. Thread safety: one thread.
-#ifndef GLINT_MEASURE_EXTREMES_EXTREMES_PARTS_H
-#define GLINT_MEASURE_EXTREMES_EXTREMES_PARTS_H
+#ifndef GLINT_MEASURE_EXTREMES_EXTREMES_INTERNAL_H
+#define GLINT_MEASURE_EXTREMES_EXTREMES_INTERNAL_H
 
 #include "grammar/ir.h"
 #include "measure/extremes/extremes.h"

@@ -1,6 +1,6 @@
 // What the files of the formatter share. Private to parser/format*.c. Thread safety: one thread.
-#ifndef GLINT_PARSER_FORMAT_FORMAT_PARTS_H
-#define GLINT_PARSER_FORMAT_FORMAT_PARTS_H
+#ifndef GLINT_PARSER_FORMAT_FORMAT_INTERNAL_H
+#define GLINT_PARSER_FORMAT_FORMAT_INTERNAL_H
 
 #include "parser/format/format_lines.h"
 #include "parser/tree/tree.h"

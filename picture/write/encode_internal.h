@@ -1,6 +1,6 @@
 // One writer per format: for image_encode, and for maps and thumbnails elsewhere.
-#ifndef GLINT_PICTURE_WRITE_ENCODE_PARTS_H
-#define GLINT_PICTURE_WRITE_ENCODE_PARTS_H
+#ifndef GLINT_PICTURE_WRITE_ENCODE_INTERNAL_H
+#define GLINT_PICTURE_WRITE_ENCODE_INTERNAL_H
 
 #include "core/strbuf.h"
 

@@ -3,8 +3,8 @@
 // Families speak in coordinates of their own, y up; the writer turns, scales and moves all of a scene at once
 // when it writes. Names are not needed: what is wrong is found by looking. Ownership: the writer's texts are
 // freed by sweep_scene.c. Thread safety: one thread.
-#ifndef GLINT_TESTS_SWEEP_SWEEP_PARTS_H
-#define GLINT_TESTS_SWEEP_SWEEP_PARTS_H
+#ifndef GLINT_TESTS_SWEEP_SWEEP_INTERNAL_H
+#define GLINT_TESTS_SWEEP_SWEEP_INTERNAL_H
 
 #include "core/vec3.h"
 #include "tests/sweep/sweep_scene.h"

@@ -2,8 +2,8 @@
 //
 // All positions here are relative to the reference's origin (the position of the camera that it was made
 // with), in scene units.
-#ifndef GLINT_REFERENCE_PARTS_H
-#define GLINT_REFERENCE_PARTS_H
+#ifndef GLINT_REFERENCE_INTERNAL_H
+#define GLINT_REFERENCE_INTERNAL_H
 
 #include "core/arena.h"
 #include "reference/reference.h"
