@@ -13,60 +13,67 @@
 
 #include <string.h>
 
-// Both lists have the same codes, each under the same name.
+// Rows lie in the order of the codes, family after family. A code that one of the two lists lacks, or names
+// otherwise, does not compile.
+enum {
+#define X(NAME, code) ROW_##NAME##_##code,
+#include "diag/diag_names.def"
+#undef X
+    ROW_COUNT
+};
 #define X(NAME, code, where, title, meaning, remedy) +1
 enum {
-    SENTENCES = 0
+    SENTENCE_COUNT = 0
 #include "diag/diag_sentences.def"
 };
 #undef X
-#define X(NAME, code) +1
-enum {
-    NAMES = 0
-#include "diag/diag_names.def"
-};
-#undef X
-_Static_assert((int)SENTENCES == (int)NAMES,
-               "diag_names.def or diag_sentences.def lacks a code of the other");
-enum {
-#define X(NAME, code) NAMED_##NAME##_##code,
-#include "diag/diag_names.def"
-#undef X
-};
-#define X(NAME, code, where, title, meaning, remedy)                                                         \
-    _Static_assert((int)NAMED_##NAME##_##code >= 0, "another name in diag_names.def: " #code);
-#include "diag/diag_sentences.def"
-#undef X
+_Static_assert((int)SENTENCE_COUNT == (int)ROW_COUNT, "diag_sentences.def lacks a code of diag_names.def");
 
 #define SEVERITY(code) (code[0] == 'E' ? DIAG_ERROR : code[0] == 'W' ? DIAG_WARNING : DIAG_NOTE)
 
-static const struct diag_info infos[DIAG_CODE_COUNT] = {
+static const struct diag_info infos[ROW_COUNT] = {
 #define X(NAME, code, where, title, meaning, remedy)                                                         \
-    [DIAG_##NAME] = {#NAME, #code, SEVERITY(#code), where, title, meaning, remedy},
+    [ROW_##NAME##_##code] = {#NAME, #code, SEVERITY(#code), where, title, meaning, remedy},
 #include "diag/diag_sentences.def"
 #undef X
+};
+
+// After the last code of each family.
+static const diag_code AFTER[DIAG_CODE_COUNT / DIAG_FAMILY] = {
+    0,
+    DIAG_AFTER_SYNTAX,
+    DIAG_AFTER_BINDING,
+    DIAG_AFTER_REFERENCE,
+    DIAG_AFTER_RULE,
+    DIAG_AFTER_LIMIT,
+    DIAG_AFTER_FILE,
+    DIAG_AFTER_DEVICE,
+    DIAG_AFTER_COMMAND,
 };
 
 diag_code diag_next(diag_code code) {
     do
         code++;
-    while (code < DIAG_CODE_COUNT && !infos[code].code);
+    while (code < DIAG_CODE_COUNT && code >= AFTER[code / DIAG_FAMILY]);
     return code;
 }
 
 const struct diag_info *diag_info(diag_code code) {
-    return &infos[code];
+    int row = code % DIAG_FAMILY;
+    for (int family = 1; family < code / DIAG_FAMILY; family++)
+        row += AFTER[family] % DIAG_FAMILY;
+    return &infos[row];
 }
 
 const char *diag_stage(diag_code code) {
     static const char *const stages[] = {"glint", "syntax", "binding", "reference", "rule",
                                          "limit", "file",   "device",  "command",   "configuration"};
-    return stages[(unsigned)(infos[code].code[1] - '0') % 10];
+    return stages[(unsigned)(diag_info(code)->code[1] - '0') % 10];
 }
 
 diag_code diag_find(str code) {
     for (diag_code i = diag_next(-1); i < DIAG_CODE_COUNT; i = diag_next(i))
-        if (code.len == strlen(infos[i].code) && str_ends_with_nocase(code, infos[i].code))
+        if (code.len == strlen(diag_info(i)->code) && str_ends_with_nocase(code, diag_info(i)->code))
             return i;
     return DIAG_CODE_COUNT;
 }

@@ -9,6 +9,7 @@ enum diag_binding_code {
 #define X(NAME, code) DIAG_##NAME,
 #include "diag/codes/binding.def"
 #undef X
+    DIAG_AFTER_BINDING
 };
 
 #endif

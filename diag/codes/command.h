@@ -9,6 +9,7 @@ enum diag_command_code {
 #define X(NAME, code) DIAG_##NAME,
 #include "diag/codes/command.def"
 #undef X
+    DIAG_AFTER_COMMAND
 };
 
 #endif

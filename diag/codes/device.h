@@ -9,6 +9,7 @@ enum diag_device_code {
 #define X(NAME, code) DIAG_##NAME,
 #include "diag/codes/device.def"
 #undef X
+    DIAG_AFTER_DEVICE
 };
 
 #endif

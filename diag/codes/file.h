@@ -9,6 +9,7 @@ enum diag_file_code {
 #define X(NAME, code) DIAG_##NAME,
 #include "diag/codes/file.def"
 #undef X
+    DIAG_AFTER_FILE
 };
 
 #endif

@@ -9,6 +9,7 @@ enum diag_limit_code {
 #define X(NAME, code) DIAG_##NAME,
 #include "diag/codes/limit.def"
 #undef X
+    DIAG_AFTER_LIMIT
 };
 
 #endif

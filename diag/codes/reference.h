@@ -9,6 +9,7 @@ enum diag_reference_code {
 #define X(NAME, code) DIAG_##NAME,
 #include "diag/codes/reference.def"
 #undef X
+    DIAG_AFTER_REFERENCE
 };
 
 #endif

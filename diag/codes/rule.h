@@ -9,6 +9,7 @@ enum diag_rule_code {
 #define X(NAME, code) DIAG_##NAME,
 #include "diag/codes/rule.def"
 #undef X
+    DIAG_AFTER_RULE
 };
 
 #endif

@@ -9,6 +9,7 @@ enum diag_syntax_code {
 #define X(NAME, code) DIAG_##NAME,
 #include "diag/codes/syntax.def"
 #undef X
+    DIAG_AFTER_SYNTAX
 };
 
 #endif
