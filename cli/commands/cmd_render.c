@@ -127,7 +127,8 @@ static int report_stats(struct rendering *r) {
 // One camera of those that are left: picture, files, statistics. The job is open and uses it.
 static int render_camera(struct rendering *r, uint32_t camera, uint32_t cameras) {
     progress_begin(&r->progress, r->cli->options.quiet);
-    int status = r->job.in_bands ? render_in_bands(r, camera) : render_at_once(r, camera, cameras);
+    int status =
+        CLI_HAS_DEVICES && r->job.in_bands ? render_in_bands(r, camera) : render_at_once(r, camera, cameras);
     // After the picture was written: it is not waited for.
     const enum shot_status counted = status == CLI_OK ? job_count(&r->job) : SHOT_OK;
     if (counted != SHOT_OK)

@@ -19,7 +19,7 @@ int render_failed(struct rendering *r, enum shot_status status) {
 int render_scale_up(struct rendering *r) {
     const struct cli_measure *m = &r->cli->options.measure;
     const uint32_t width = r->job.image.width, height = r->job.image.height;
-    if (!m->scale_width)
+    if (!CLI_HAS_DEVICES || !m->scale_width) // a search by a device chose it
         return CLI_OK;
     if (!job_scale_up(&r->job, m->scale_width, m->scale_height)) {
         cli_error(r->cli, DIAG_OUT_OF_MEMORY, r->outputs[0].path, NULL, "not enough memory for the picture");
@@ -38,7 +38,7 @@ void render_tell_unused_error(const struct rendering *r) {
     const struct ir_image *image = &session->scene->image;
     if (!(session->unused_error > 0) || image->samples <= image->min_samples || r->cli->options.quiet)
         return;
-    if (r->job.wish.by_reference)
+    if (job_by_reference(&r->job))
         fprintf(stderr, "glint: image.error ends no pixel: the reference takes all %d samples of each\n",
                 session->image->samples);
     else if (session->options.error < 0)
@@ -109,14 +109,16 @@ static void tell_left_out(const struct rendering *r) {
 }
 
 int render_tell_end(const struct rendering *r) {
+    const bool quiet = r->cli->options.quiet;
+    if (job_by_reference(&r->job)) {
+        if (!quiet)
+            tell_left_out(r);
+        return CLI_OK;
+    }
     int status = render_tell_audit(r->cli, &r->job);
     if (status == CLI_OK)
         status = tell_time(r);
-    if (status != CLI_OK || r->cli->options.quiet)
-        return status;
-    if (r->job.wish.by_reference)
-        tell_left_out(r);
-    if (r->cli->options.repeat)
+    if (status == CLI_OK && !quiet && r->cli->options.repeat)
         tell_repeats(r);
-    return CLI_OK;
+    return status;
 }

@@ -42,7 +42,7 @@ static enum shot_status open_reference(struct job *job) {
 
 enum shot_status job_open(struct job *job, uint32_t camera) {
     job->camera = camera;
-    if (job->wish.by_reference)
+    if (job_by_reference(job))
         return open_reference(job);
     const struct shot_wish wish = {.region = first_region(job),
                                    .counts = job->wish.counts && (job->in_bands || job->is_part),
@@ -56,7 +56,7 @@ enum shot_status job_open(struct job *job, uint32_t camera) {
 
 enum shot_status job_turn(struct job *job, uint32_t camera) {
     job->camera = camera;
-    if (job->wish.by_reference) {
+    if (job_by_reference(job)) {
         reference_shot_close(&job->reference);
         return open_reference(job);
     }
@@ -141,7 +141,7 @@ static bool report(void *context, double fraction) {
 
 enum shot_status job_frame(struct job *job, struct image *image, const struct render_progress *progress) {
     const struct reference_progress of_reference = {report, (void *)progress};
-    if (job->wish.by_reference)
+    if (job_by_reference(job))
         return reference_shot_take(&job->reference, image, NULL, &of_reference, &job->reference_statistics);
     return job->is_part && !has_all_samples(&job->part)
                ? take_samples(job, image, progress)

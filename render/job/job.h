@@ -69,6 +69,11 @@ struct job {
     struct ir_image *image_made; // the session's, with the samples that there was time for
 };
 
+// A program without devices (docs/decisions/install.md) draws by the reference, and leaves the rest out.
+static inline bool job_by_reference(const struct job *job) {
+    return !CLI_HAS_DEVICES || job->wish.by_reference;
+}
+
 // ---- job.c: what draws
 
 enum shot_status job_open(struct job *job, uint32_t camera);

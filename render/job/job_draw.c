@@ -124,7 +124,7 @@ enum shot_status job_draw(struct job *job, uint32_t pictures, const struct rende
     const struct render_progress of_frame = job_share_progress(&one);
     double *times = ARENA_ARRAY(job->arena, double, (size_t)frames);
     double *on_device = ARENA_ARRAY(job->arena, double, (size_t)frames);
-    const bool in_time = job->wish.time.seconds > 0;
+    const bool in_time = !job_by_reference(job) && job->wish.time.seconds > 0;
     for (int32_t i = 0; i < frames; i++) {
         const double start = clock_seconds();
         const uint32_t errors = job->session->sink.errors;
@@ -170,7 +170,7 @@ void job_state_estimate(struct job *job) {
 enum shot_status job_audit(struct job *job, const struct render_progress *progress) {
     struct audit *audit = &job->stats.audit;
     job->stats.has_audit = job->wish.audits;
-    if (!job->wish.audits)
+    if (job_by_reference(job) || !job->wish.audits)
         return SHOT_OK;
     const struct audit_wish wish = audit_wish(job);
     const enum shot_status status =
@@ -207,7 +207,7 @@ enum shot_status job_make_layers(struct job *job, const struct render_progress *
 
 enum shot_status job_count(struct job *job) {
     const double start = clock_seconds();
-    if (!job->wish.counts || job->wish.by_reference || job->shot->wish.counts)
+    if (!job->wish.counts || job_by_reference(job) || job->shot->wish.counts)
         return SHOT_OK;
     const enum shot_status status = shot_count(job->shot, NULL, &job->stats.last);
     job->stats.count_seconds = clock_seconds() - start;

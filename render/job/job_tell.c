@@ -8,7 +8,9 @@
 #include <sys/resource.h>
 
 const struct render_estimate *job_estimate(const struct job *job) {
-    return job->shot && job->shot->settings.error > 0 ? renderer_estimate(job->shot->renderer) : NULL;
+    return !job_by_reference(job) && job->shot && job->shot->settings.error > 0
+               ? renderer_estimate(job->shot->renderer)
+               : NULL;
 }
 
 // ---- its file
@@ -20,10 +22,9 @@ struct image_display job_display(const struct job *job) {
 struct provenance job_provenance(const struct job *job, enum image_format format,
                                  struct image_coding coding) {
     return (struct provenance){.session = job->session,
-                               .gpu = job->wish.by_reference ? NULL : job->gpu,
+                               .gpu = job_by_reference(job) ? NULL : job->gpu,
                                .camera = job->camera,
-                               .is_double =
-                                   job->wish.by_reference || (job->shot && job->shot->flat.is_double),
+                               .is_double = job_by_reference(job) || (job->shot && job->shot->flat.is_double),
                                .as_file = job->wish.as_file,
                                .audits = job->stats.has_audit,
                                .max_off = job->wish.max_off,
@@ -84,7 +85,7 @@ static void fill_statistics(struct job *job) {
 }
 
 void job_report(struct job *job, bool is_json, struct strbuf *out) {
-    if (job->wish.by_reference) {
+    if (job_by_reference(job)) {
         (is_json ? reference_stats_json : reference_stats_text)(&job->reference, &job->reference_statistics,
                                                                 out);
         return;

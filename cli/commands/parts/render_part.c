@@ -132,7 +132,7 @@ int render_plan_part(struct rendering *r) {
                           .display = {image->tone, image->transfer}};
     part->region = (struct part_region){0, 0, part->width, part->height};
     r->job.is_part = render_wants_part(r);
-    if (!r->job.is_part)
+    if (!CLI_HAS_DEVICES || !r->job.is_part) // the reference draws no parts, as render_judge_part has said
         return CLI_OK;
     if (image->error > 0) {
         const int status = cli_usage(r->cli, place_of(r),

@@ -185,7 +185,7 @@ static int write_picture(struct rendering *r, const struct cli_output *output, c
     struct strbuf file;
     strbuf_init(&file);
     const double start = clock_seconds();
-    if (output->is_part)
+    if (CLI_HAS_DEVICES && output->is_part)
         render_encode_part(r, &file);
     else
         render_encode(r, output->format, &file);
