@@ -40,7 +40,7 @@ static bool fits(const struct asset_ahead *ahead, const struct assets_input *inp
            asset_fits_growth(input, bytes, ahead->identity.size_bytes);
 }
 
-// Everything up to the pixels; false: something is not as it should be, or was decoded before.
+// Does everything up to the pixels; false: something is wrong, or was decoded before.
 static bool find(struct asset_ahead *ahead, const struct assets_input *input, struct asset_hold *hold,
                  str base) {
     const uint64_t most = input->limits->value[LIMIT_IMAGE_BYTES];
@@ -88,7 +88,7 @@ struct asset_file *ahead_take(struct asset_ahead *ahead, struct store_entry **en
     parallel_wait(&ahead->task);
     *entry = ahead->entry;
     (*entry)->picture_fault = ahead->fault;
-    // As it was before it was decoded, but for what only pixels show.
+    // The entry stays as before decoding, except for what only pixels show.
     (*entry)->picture.pixels = ahead->picture.pixels;
     (*entry)->picture.ignored = ahead->picture.ignored;
     (*entry)->picture.clear_pixels = ahead->picture.clear_pixels;

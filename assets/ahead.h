@@ -1,10 +1,9 @@
-// The background's pixels decoded beside everything else: begun before the meshes are read, awaited when the
-// pixels are needed.
+// Decodes the background's pixels in parallel with everything else: begun before the meshes are read, awaited
+// when the pixels are needed.
 //
-// It finds and reads the file as assets.c does, and says nothing: what is not as it should be is left to
-// assets.c, which reports it in its turn. Errors: none; there is then nothing ahead. Ownership: ahead_finish
-// waits and frees; ahead_take gives the pixels away. Thread safety: as assets.h; the decoder alone has
-// another thread.
+// It finds and reads the file as assets.c does, and reports nothing: faults are left to assets.c, which
+// reports them in their turn. Errors: none; then nothing is decoded ahead. Ownership: ahead_finish waits and
+// frees; ahead_take gives the pixels away. Thread safety: as assets.h; the decoder alone has another thread.
 #ifndef GLINT_ASSETS_AHEAD_H
 #define GLINT_ASSETS_AHEAD_H
 
@@ -13,13 +12,13 @@
 
 struct asset_ahead;
 
-// Begins with the image that the scene's file `base` names; NULL: there is nothing that could be begun.
+// Begins with the image that the scene's file `base` names; NULL: there is nothing to begin.
 struct asset_ahead *ahead_begin(const struct assets_input *input, struct asset_hold *hold, str base);
 // Whether it decodes that file; then the entry and the file are noted for ahead_take.
 bool ahead_is_for(struct asset_ahead *ahead, const struct file_read *identity, struct store_entry *entry,
                   const struct asset_file *file);
-// Waits for the pixels, which become the noted entry's, or its fault, which is picture_no_memory where
-// memory ended. Returns the noted file, for what must be reported; NULL: nothing was noted.
+// Waits for the pixels, which become the noted entry's, or its fault, which is picture_no_memory if memory
+// ran out. Returns the noted file, for what must be reported; NULL: nothing was noted.
 struct asset_file *ahead_take(struct asset_ahead *ahead, struct store_entry **entry);
 // NULL does nothing.
 void ahead_finish(struct asset_ahead *ahead);

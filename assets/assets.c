@@ -44,7 +44,7 @@ static void report_mesh_kind(struct asset_file *file) {
               STR_ARG(mesh_format_words(file->input->arena)));
 }
 
-// Shown whole it would not be what the scene asks for.
+// Shown whole, the mesh would not be what the scene asks for.
 static bool can_have_part(struct asset_file *file) {
     const enum mesh_format_id format = mesh_format_of_path(file->path);
     if (file->part.len == 0 || mesh_formats[format].traits & MESH_HOLDS_BODIES)
@@ -83,7 +83,7 @@ static void read_mesh_guarded(struct asset_file *file, struct arena *scratch, st
         asset_report_memory(file, fault);
 }
 
-// What is worth reporting about a mesh, whether it was read now or for an earlier scene.
+// Reports what is notable about a mesh, whether it was read now or for an earlier scene.
 static void report_mesh(struct asset_file *file, const struct mesh *mesh) {
     file->is_binary = mesh->is_binary;
     if (mesh->turned)
@@ -92,7 +92,7 @@ static void report_mesh(struct asset_file *file, const struct mesh *mesh) {
     mesh_losses_report(file, mesh);
 }
 
-// Reads it now, if it was not read ahead.
+// Reads the mesh now, unless it was read ahead.
 static void fill_mesh(struct loader *loader, struct asset_file *file, const struct file_read *identity,
                       struct store_entry *entry) {
     const size_t cap = limits_size(loader->input->limits, LIMIT_MESH_MEMORY);
@@ -139,7 +139,7 @@ static struct loaded_mesh *mesh_of_model(struct loader *loader, const struct ir_
     const struct assets_input *input = loader->input;
     struct asset_file file = {.input = input, .what = "mesh", .limit = LIMIT_MESH_BYTES, .named_at = at};
     struct file_read identity;
-    // Thousands of models may name one mesh: that its file is there was seen when the first of them did.
+    // Thousands of models may name one mesh: the first of them has already checked that its file exists.
     for (struct loaded_mesh *known = loader->meshes; known; known = known->next)
         if (known->file.named_at.source == at.source && str_equal(known->name, model->mesh) &&
             str_equal(known->part, model->part)) {
@@ -174,8 +174,8 @@ static struct loaded_mesh *mesh_of_model(struct loader *loader, const struct ir_
 
 // ---- models
 
-// A mesh counts once, however many models show it. What does not fit is reported once, by report_unfit: every
-// further model would say the same.
+// A mesh counts once, however many models show it. Meshes that do not fit are reported once, by report_unfit:
+// every further model would say the same.
 static bool fits_scene(struct loader *loader, struct assets *out, struct loaded_mesh *loaded, span at) {
     const struct mesh *mesh = loaded->mesh;
     const uint32_t added = loaded->is_counted ? 0 : mesh->triangle_count;

@@ -2,9 +2,9 @@
 // materials. A fault inside a file is placed in that file with "named here" in the scene; a file that is
 // missing, refused or of an unsupported kind is reported where the scene names it.
 //
-// The store keeps meshes and images with counted references, keyed by path, size and time, so that they
-// outlive a reload. Ownership: assets hold references into the store; assets_finish releases them.
-// Thread safety: one thread loads; loaded assets are immutable.
+// The store keeps meshes and images with reference counts, keyed by path, size and time, so they outlive a
+// reload. Ownership: assets hold references into the store; assets_finish releases them. Thread safety: one
+// thread loads; loaded assets are immutable.
 #ifndef GLINT_ASSETS_ASSETS_H
 #define GLINT_ASSETS_ASSETS_H
 
@@ -27,7 +27,8 @@ struct asset_hold;
 struct timeline;
 
 struct asset_store *asset_store_create(void); // NULL: no memory
-// Files that were read for a store and found to be whole, since it was made: what it had is not among them.
+// How many files were read for a store and found to be whole since it was created; files that it already had
+// do not count.
 struct asset_reads {
     uint32_t meshes, images;
 };
@@ -56,32 +57,32 @@ struct assets {
     struct assets_model *models; // one per scene model
     uint32_t model_count;
     const struct picture *background; // NULL: none, or not loaded; without pixels unless they are kept
-    // By material: the image of its diffuse and of its specular colour, as the background; NULL: no material
-    // has one.
+    // By material: the images of its diffuse and its specular colour, kept like the background; NULL: no
+    // material has one.
     const struct picture *(*images)[ASSETS_IMAGES];
     bool pixels_skipped; // it has an image of which only the header was ever read
     bool pixels_later;   // its pixels are still being decoded: assets_settle
     struct asset_ahead *ahead;
     struct meshes_ahead *meshes_ahead; // while they are loaded
     uint64_t triangle_count;           // of all models
-    uint64_t held_triangles;           // the same with those of each mesh once
+    uint64_t held_triangles;           // the same, counting each mesh once
     struct asset_uses uses;            // in the order of loading; text is in the arena of the scene
 };
 
-// What is done with the pixels of an image.
+// What to do with the pixels of an image.
 enum assets_pixels {
     ASSETS_KEEP_PIXELS,
     ASSETS_CHECK_PIXELS, // they are decoded, so that every fault is found, and dropped
     ASSETS_SKIP_PIXELS,  // only the header is read
 };
 
-// Loads all; goes on after a fault. Whatever is done with pixels, the limits are the same. When memory runs
-// out, it jumps to the guards of input->arena and of the arenas of sources and files; assets_finish(out) then
-// still releases what was taken.
+// Loads everything; continues after a fault. The limits are the same whatever is done with pixels. When
+// memory runs out, it jumps to the guards of input->arena and of the arenas of sources and files;
+// assets_finish(out) then still releases everything taken.
 void assets_load(struct asset_store *store, const struct assets_input *input, enum assets_pixels pixels,
                  struct assets *out);
-// Waits for pixels that are still being decoded; what is wrong with them is reported now. It needs the guards
-// of assets_load. Does nothing if none are.
+// Waits for pixels that are still being decoded, and reports their faults. It needs the guards of
+// assets_load. Does nothing if none are being decoded.
 void assets_settle(struct assets *assets);
 // Accepts zeroed, half-loaded and finished assets.
 void assets_finish(struct assets *assets);

@@ -1,4 +1,4 @@
-// glTF files among the assets of a scene: one document for all models that show parts of a file.
+// glTF files among the assets of a scene: one document per file, for all models that show parts of it.
 #include "assets/gltf/asset_gltf.h"
 #include "assets/gltf/material.h"
 #include "assets/loader.h"

@@ -1,4 +1,4 @@
-// Image files: found in the store or read, and judged.
+// Image files: found in the store or read, and checked.
 #include "assets/loader.h"
 #include "core/clock.h"
 #include "core/timeline.h"
@@ -7,8 +7,8 @@
 #include "grammar/ir.h"
 #include "picture/read/picture_read.h"
 
-// Bytes of memory for each pixel besides the pixel itself, by depth: of a background the device's texels; of
-// a surface's image its levels as well, and those of the device.
+// Bytes of memory per pixel besides the pixel itself, by depth: for a background, the device's texels; for a
+// surface's image also its levels, and those of the device.
 struct pixel_cost {
     uint32_t background, surface;
 };
@@ -57,7 +57,7 @@ static bool fits_memory(struct asset_file *file, str name, const struct picture 
     return false;
 }
 
-// A small file cannot take much memory, and neither can many of them. Told once, of all that do not fit.
+// Neither one small file nor many of them can take much memory. Reported once, for all that do not fit.
 static bool fits_scene(struct loader *loader, struct asset_file *file, str name, uint64_t bytes,
                        uint64_t file_bytes) {
     loader->held.file_bytes += file_bytes;
@@ -102,7 +102,7 @@ bool loader_image_fits(struct loader *loader, struct asset_file *file, str name,
            fits_scene(loader, file, name, bytes, role.file_bytes);
 }
 
-// What the file's bytes say; a fault of the decoder is left in the entry.
+// Reads the file's bytes; a fault of the decoder is left in the entry.
 static void decode_image(struct loader *loader, struct asset_file *file, str name, struct store_entry *entry,
                          struct image_role role) {
     struct picture_header header;
@@ -142,7 +142,7 @@ static void read_image(struct loader *loader, struct asset_file *file, str name,
         store_complete(loader->hold, entry);
 }
 
-// An image of which at least as much is known as is asked for.
+// An image of which at least as much is known as requested.
 struct store_entry *loader_find_image(struct loader *loader, const struct file_read *identity) {
     const enum assets_pixels pixels = loader->pixels;
     static const enum store_kind kinds[] = {[ASSETS_KEEP_PIXELS] = STORE_PICTURE_KEPT,

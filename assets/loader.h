@@ -13,26 +13,26 @@ struct meshes_ahead;
 // A mesh file that models of this scene name.
 struct loaded_mesh {
     struct asset_file file;
-    str name, part;      // as the first model that names it does
+    str name, part;      // as the first model that names it writes it
     uint64_t size_bytes; // of the file
     str canonical;
     const struct mesh *mesh; // NULL: it could not be loaded
     struct str_map groups;   // of the mesh: 1 + index; made when first needed
-    bool normals_told;       // that some have no direction
-    bool coordinates_read;   // or that they cannot be
-    struct mesh *own;        // the mesh again, to be completed
-    bool is_counted;         // its triangles are, among those of the scene
+    bool normals_told;       // reported that some normals have no direction
+    bool coordinates_read;   // coordinates were read, or found to be unreadable
+    struct mesh *own;        // the same mesh, to be completed
+    bool is_counted;         // its triangles are counted among those of the scene
     bool is_unfit;           // they are among those that do not fit
     bool libraries_read;
-    bool library_missing;         // so that what it would have defined is not reported as missing again
-    struct str_map library_paths; // of the material files that were read: each is read once
+    bool library_missing; // so that the materials it would have defined are not reported as missing too
+    struct str_map library_paths; // paths of the material files read so far: each is read once
     struct mtl_materials materials;
     uint32_t *group_material; // from the material files; IR_NO_INDEX: not asked for yet
     struct shared_materials {
         uint32_t *groups; // of the last model without a map; NULL: none yet
         uint32_t material;
     } shared[2]; // with the materials of the mesh, and with a material of the model's
-    const uint32_t *no_refraction, *no_image; // lists of materials that were found to have none
+    const uint32_t *no_refraction, *no_image; // lists of materials that were found to have none of these
     struct loaded_mesh *next;
 };
 
@@ -55,13 +55,13 @@ struct material_source {
 };
 
 enum {
-    ASSET_TEXT_ROOM = 64, // that an arena needs besides the text itself
+    ASSET_TEXT_ROOM = 64, // bytes that an arena needs besides the text itself
 };
 
-// An image that the scene shows: what it is used for, and what it may take.
+// An image that the scene shows: its use, and the memory it may take.
 struct image_role {
-    bool is_background;  // or a surface has it, with smaller levels
-    uint64_t file_bytes; // that were not counted for another image before
+    bool is_background;  // else a surface has it, with smaller levels
+    uint64_t file_bytes; // bytes of its file not already counted for another image
 };
 
 struct loader {
@@ -88,38 +88,38 @@ struct loader {
         str name;
         uint64_t first_sum, first_file_bytes; // with the first one
         uint64_t bytes;                       // of all of them
-    } unfit_images;                           // with which the scene's would take more than image-growth
+    } unfit_images;                           // images with which the scene's would exceed image-growth
     struct {
         uint32_t models;
         uint64_t triangles; // of all of them
         span first;
         uint32_t first_mesh; // triangles of the first one's mesh
         uint64_t first_sum;  // triangles of the scene with it
-    } unfit;                 // models with which the scene would have more triangles than the limit
+    } unfit;                 // models with which the scene would exceed the triangle limit
 };
 
 // A place for one more material.
 struct ir_material *loader_add_material(struct loader *loader, struct material_source source);
-// The entry of an image that was found under its name, read if it was not before; NULL: no memory. What is
-// wrong with it is reported, but for faults of the decoder.
+// The entry of an image that was found under its name, read unless it was read before; NULL: no memory.
+// Everything wrong with it is reported except faults of the decoder.
 struct store_entry *loader_read_image(struct loader *loader, struct asset_file *file, str name,
                                       const struct file_read *identity, struct image_role role);
-// Its two halves: the entry, or a new one, of which at least as much is known as is asked for; and its
-// reading.
+// The two halves of that: finding the entry, or a new one, with at least as much known as requested; and
+// reading it.
 struct store_entry *loader_find_image(struct loader *loader, const struct file_read *identity);
 void loader_complete_image(struct loader *loader, struct asset_file *file, str name,
                            struct store_entry *entry, struct image_role role);
-// Whether the memory that it takes is within the limits; counted among that of the scene's images. Those with
-// which a scene's images take too much are reported by the second, once for all.
+// Whether its memory, which is added to that of the scene's images, is within the limits. Images with which a
+// scene's take too much are reported by the second, all at once.
 void loader_report_unfit_images(struct loader *loader);
 bool loader_image_fits(struct loader *loader, struct asset_file *file, str name,
                        const struct store_entry *entry, struct image_role role);
-// The memory that a picture takes at most while a scene that shows it is rendered on a processor, whose
-// device's memory counts too: pixels, texels, and what its decoder needs. UINT64_MAX: beyond all.
+// The most memory that a picture takes while a scene that shows it is rendered on a processor, whose device's
+// memory counts too: pixels, texels, and its decoder's needs. UINT64_MAX: beyond all.
 uint64_t loader_image_memory(const struct assets_input *input, const struct picture *picture,
                              uint64_t decoder_bytes, bool is_background);
-// What is known of the picture once its pixels are; NULL: it cannot be used. `is_solid`: whoever names it
-// says that its alpha means nothing, or that it does.
+// Checks what is known of the picture once its pixels are; NULL: it cannot be used. `is_solid`: whoever names
+// it says that its alpha means nothing; false: that it counts.
 const struct picture *loader_judge_image(struct asset_file *file, struct store_entry *entry, bool is_solid);
 // textures.c: whether the image of a material file's material is used; the images of all materials; and the
 // coordinates of a model's mesh where one of its materials has one.
@@ -128,8 +128,8 @@ void loader_load_textures(struct loader *loader, struct assets *out);
 void loader_load_coordinates(struct loader *loader, const struct assets_model *model,
                              struct loaded_mesh *loaded);
 
-// gltf_assets.c: the document of a mesh that is a glTF file, opened when the first model names it; what it
-// loses is reported at the end. The material of a group of its mesh; false: it has none.
+// gltf_assets.c: the document of a mesh that is a glTF file, opened when the first model names it; its losses
+// are reported at the end. The material of a group of its mesh; false: it has none.
 bool loader_open_document(struct loader *loader, struct asset_file *file, const struct file_read *identity);
 void loader_close_documents(struct loader *loader);
 bool loader_document_material(const struct loader *loader, struct loaded_mesh *loaded, str group,

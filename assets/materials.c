@@ -13,7 +13,7 @@
 
 enum {
     NAMES_SHOWN = 12,
-    SEARCHES_MAX = 50, // errors up to which the names that a mesh has are listed
+    SEARCHES_MAX = 50, // up to this many errors list the names that a mesh has
 };
 
 static bool is_written(const struct ir_material_ref *ref) {
@@ -92,7 +92,8 @@ static void read_library_or_report(struct loader *loader, struct loaded_mesh *lo
         report_missing_library(loaded, name, line);
 }
 
-// End of the first name of several: after the first word that ends like a material file, else at the end.
+// The end of the first of several names: after the first word that ends like a material file, else at the
+// end.
 static size_t first_name_end(str names) {
     for (size_t at = 1; at < names.len; at++) {
         bool ends = names.ptr[at] == ' ' || names.ptr[at] == '\t';
@@ -226,7 +227,7 @@ uint32_t *loader_group_materials(struct loader *loader, const struct ir_model *m
                                  struct loaded_mesh *loaded) {
     const struct mesh *mesh = loaded->mesh;
     const struct ir_scene *scene = loader->input->scene;
-    // Models without a map of their own share a list with the one before of the same material.
+    // Models without their own map share a list with the previous such model of the same material.
     const bool has_material = is_written(&model->material), has_map = model->material_map.count > 0;
     const uint32_t whole = has_material ? assets_material(scene, &model->material) : IR_NO_INDEX;
     struct shared_materials *shared = &loaded->shared[has_material];

@@ -14,7 +14,7 @@ struct mesh_triangle {
     uint32_t corners[3]; // into positions
     uint32_t normals[3]; // into normals; IR_NO_INDEX: the file has none for this corner
     uint32_t group;      // into groups
-    uint32_t line;       // of the face in the file, from 1; of a binary file, which face it is
+    uint32_t line;       // the face's line in the file, from 1; in a binary file, its number
 };
 
 struct mesh {
@@ -43,11 +43,11 @@ struct mesh {
     uint32_t face_count; // polygons in the file, before triangulation
     uint32_t zero_area;  // triangles without area; kept here, dropped by flattening
     struct mesh_loss_count losses[MESH_LOSS_COUNT];
-    double bent_most;  // how far a corner is off its face's plane at most, as a share of the face's size
+    double bent_most;  // greatest distance of a corner from its face's plane, as a share of the face's size
     vec3 lower, upper; // bounds of the positions
 };
 
-// What the numbers in mesh_triangle.line count.
+// The word for what mesh_triangle.line counts.
 static inline const char *mesh_place_word(const struct mesh *mesh) {
     return mesh->is_binary ? "face" : "line";
 }

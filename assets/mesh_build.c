@@ -9,8 +9,8 @@
 #include <stdatomic.h>
 #include <string.h>
 
-// How far a corner must be off its face's plane to be told of: of the face's size, and, for what a file of
-// six digits leaves open, of its coordinates.
+// How far a corner must be off its face's plane to be reported: as a share of the face's size and, to allow
+// for files with six digits, of its coordinates.
 #define BEND_SEEN  0.001
 #define RESOLUTION 0x1p-18
 
@@ -38,7 +38,7 @@ static void copy_names(const struct polygons *polygons, str path, struct mesh *m
     mesh->face_count = polygons->faces.count;
 }
 
-// Positions that faces use, in file order. Returns the new index of each vertex.
+// Keeps the positions that faces use, in file order. Returns the new index of each vertex.
 static uint32_t *keep_used_positions(struct polygons *polygons, struct arena *scratch, struct mesh *mesh) {
     uint32_t *place = ARENA_ARRAY(scratch, uint32_t, polygons->vertices.count);
     for (uint32_t i = 0; i < polygons->corners.count; i++)
@@ -211,7 +211,7 @@ static void measure(struct mesh *mesh) {
     mesh->zero_area = measuring.zero_area;
 }
 
-// Of what is not needed any more.
+// Memory of polygons that is no longer needed.
 static struct mesh_room room_of(struct polygons *polygons, struct arena *scratch) {
     return (struct mesh_room){
         {{(char *)polygons->faces.items, polygons->faces.capacity * sizeof *polygons->faces.items},

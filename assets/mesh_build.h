@@ -7,16 +7,16 @@
 #include "assets/file/asset_file.h"
 #include "assets/mesh.h"
 
-// The mesh of file->text, as the next function does; faults are reported and counted in file->errors. Its own
-// memory and the scratch arena's together take no more than the cap, which is that of both.
+// Builds the mesh of file->text, as the next function does; faults are reported and counted in file->errors.
+// The cap applies to its own memory and the scratch arena's together.
 void mesh_read(struct asset_file *file, struct arena *scratch, struct mesh *mesh);
 // Fills a zeroed mesh whose arena is set up; everything that stays is there, `scratch` may be freed. Both
 // arenas must be guarded. `polygons` is used up: its vertices become the mesh's positions, if all of them are
 // used, and its corners and faces are overwritten.
 void mesh_build(struct polygons *polygons, str path, struct arena *scratch, struct mesh *mesh);
 
-// Memory for the steps after triangulation. What has been touched before is used first: a page that is new
-// costs more than what is done in it.
+// Memory for the steps after triangulation. Memory touched before is used first: a new page costs more than
+// the work done in it.
 struct mesh_room {
     struct {
         char *at;

@@ -33,7 +33,8 @@ static bool is_same_file(const struct assigning *r) {
     return triangles == r->mesh->triangle_count;
 }
 
-// Each corner of a triangle is one of its face, known by its position: however the face was cut or turned.
+// Each corner of a triangle is one of its face's corners, identified by position, however the face was cut or
+// turned.
 static void find_corners(struct assigning *r, const uint32_t *place, uint32_t begin, uint32_t end,
                          uint32_t triangle) {
     for (int k = 0; k < 3; k++) {

@@ -1,6 +1,5 @@
-// The texture coordinates of a mesh, read only where one of its materials is an image: the reader of its
-// format walks over the file a second time, so that meshes without images cost neither time nor memory for
-// it.
+// The texture coordinates of a mesh, read only if one of its materials has an image: its format's reader
+// walks over the file a second time, so meshes without images cost no time or memory for it.
 //
 // Input: the file of a mesh that was read. Output: mesh->coordinates and mesh->textured, in the mesh's arena.
 // Units: those of the file; u to the right, v upwards, an image from 0 to 1. Errors: faults in coordinates

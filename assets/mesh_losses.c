@@ -1,7 +1,7 @@
 #include "assets/mesh_losses.h"
 #include "diag/codes/file.h"
 
-// Of a face's size: a quadrilateral that is bent by more than some twenty degrees.
+// As a share of a face's size: a quadrilateral bent by more than some twenty degrees.
 #define BEND_PLAIN 0.05
 
 static const char *plural(uint32_t count) {

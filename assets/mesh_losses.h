@@ -1,4 +1,4 @@
-// What a mesh file says and no picture shows, reported as warnings, one for each kind and file.
+// Contents of a mesh file that no picture shows, reported as warnings, one per kind and file.
 //
 // Input: a mesh that was read, now or for an earlier scene. Output: diagnostics in the file's sink. Thread
 // safety: that of the sink.
@@ -9,7 +9,7 @@
 #include "assets/mesh.h"
 
 void mesh_losses_report(struct asset_file *file, const struct mesh *mesh);
-// Of a mesh that a smooth model shows: its normals without a direction.
+// For a mesh that a smooth model shows: its normals without a direction.
 void mesh_losses_report_normals(struct asset_file *file, const struct mesh *mesh);
 
 #endif

@@ -59,7 +59,7 @@ static struct sums sum_at_positions(const struct mesh *mesh, struct arena *arena
     return s;
 }
 
-// What remains of normals that cancel is rounding, 2^-40 of what was added at most.
+// The remainder of normals that cancel is rounding, at most 2^-40 of the added lengths.
 static vec3 unit_or_zero(vec3 sum, double weight) {
     if (!(vec3_length(sum) > scalbn(weight, -40)))
         return (vec3){0, 0, 0};

@@ -1,4 +1,4 @@
-// What reads a mesh file of each format: the functions that grammar/mesh_formats.def names.
+// The functions that read each mesh format, as named by grammar/mesh_formats.def.
 //
 // Thread safety: constant data.
 #ifndef GLINT_ASSETS_MESH_READER_H
@@ -11,11 +11,11 @@ struct mesh_reader {
     // Reads file->text into polygons, which are in the scratch arena. Faults are reported and counted in
     // file->errors; after one the result must not be used.
     void (*polygons)(struct asset_file *file, struct arena *scratch, struct polygons *out);
-    // Reads it again for the coordinates of textures; NULL: the format has none.
+    // Reads it again for texture coordinates; NULL: the format has none.
     void (*coordinates)(struct asset_file *file, struct arena *scratch, struct textured_faces *out);
 };
 
-// By the ending of the path, which is that of a mesh file.
+// Chosen by the ending of the path, which must be that of a mesh file.
 const struct mesh_reader *mesh_reader_of(str path);
 
 #endif

@@ -93,7 +93,7 @@ static void sort_edges(struct half_edge *edges, uint32_t n) {
     }
 }
 
-// What some of the lower ends have.
+// The open edges of some of the lower ends.
 struct open_edges {
     uint32_t count, line; // line: of the first face, 0: none
 };
@@ -146,7 +146,7 @@ struct triangle_edge {
     bool leads_down;
 };
 
-// Fills those with a length: without one an edge is its own opposite. Returns how many there are.
+// Fills in the edges that have a length: an edge without one is its own opposite. Returns how many there are.
 static uint32_t edges_of(const struct mesh *mesh, uint32_t triangle, struct triangle_edge edges[3]) {
     const uint32_t *corners = mesh->triangles[triangle].corners;
     const uint32_t ends[4] = {mesh->merged[corners[0]], mesh->merged[corners[1]], mesh->merged[corners[2]],
@@ -202,8 +202,8 @@ static double extent_scale(vec3 size) {
     return scalbn(1, exponent < EXPONENT_MAX ? exponent : EXPONENT_MAX);
 }
 
-// A sixth of the sum of a·(b×c), relative to the middle of the mesh, times scale cubed. *rounding is the most
-// that the sum may be wrong.
+// A sixth of the sum of a·(b×c), relative to the middle of the mesh, times scale cubed. *rounding is the
+// largest possible error of the sum.
 static double scaled_volume(const struct mesh *mesh, double scale, double *rounding) {
     vec3 middle = vec3_add(mesh->lower, vec3_mul(vec3_sub(mesh->upper, mesh->lower), 0.5));
     double sum = 0;

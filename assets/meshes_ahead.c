@@ -12,12 +12,12 @@
 #include <stdlib.h>
 
 enum {
-    GROUP_BYTES = 256 << 20, // of the texts that are in memory at the same time
+    GROUP_BYTES = 256 << 20, // bytes of the texts in memory at the same time
 };
 
 struct one {
     struct file_read identity;
-    struct assets_input input; // with a sink that keeps nothing, so that it only counts
+    struct assets_input input; // with a sink that keeps nothing and only counts
     struct diag_sink sink;
     struct asset_file file; // its text while it is in memory
     struct arena scratch;
@@ -43,7 +43,7 @@ static struct one *add(struct meshes_ahead *ahead) {
     return one;
 }
 
-// Whether the model's mesh is looked at for the first time; most models name the mesh of the one before.
+// Whether the model's mesh is seen for the first time; most models name the same mesh as the model before.
 static bool is_new_name(struct meshes_ahead *ahead, str name, span at) {
     uint32_t *source = str_map_at(&ahead->names, name);
     const bool is_new = *source != at.source + 1;
@@ -105,7 +105,7 @@ static void read_text(void *context) {
         one->file.text = STR("");
 }
 
-// Of the file that it was, and not of one that has grown since.
+// Reads the text of the file as it was found, not of one that has grown since.
 static void begin(struct one *one) {
     const size_t cap = limits_size(one->input.limits, LIMIT_MESH_MEMORY);
     arena_init(&one->scratch, cap);
@@ -121,7 +121,7 @@ static int compare_sizes(const void *a, const void *b) {
     return str_compare(x->identity.path, y->identity.path);
 }
 
-// The largest first, so that none of them is left for the end.
+// The largest first, so that no large one is left for the end.
 static void read_group(struct one **items, uint32_t count) {
     for (uint32_t i = 0; i < count; i++)
         begin(items[i]);
@@ -129,7 +129,7 @@ static void read_group(struct one **items, uint32_t count) {
 }
 
 static void read_groups(struct meshes_ahead *ahead) {
-    // What they are found by is made again: in this order they are read.
+    // Sorts the items into the order of reading, and rebuilds the map by which they are found.
     qsort(ahead->items, ahead->count, sizeof *ahead->items, compare_sizes);
     for (uint32_t i = 0; i < ahead->count; i++)
         *str_map_at(&ahead->paths, ahead->items[i]->identity.path) = i + 1;
@@ -153,7 +153,7 @@ void meshes_ahead_read(const struct loader *loader, struct meshes_ahead **out) {
     for (uint32_t i = 0; i < scene->models.count; i++)
         if (scene->models.items[i].mesh.len)
             consider(ahead, loader, &scene->models.items[i]);
-    // The log has each file when it is used.
+    // The log gets each file when it is used.
     const uint32_t logged = input->files->log.count;
     if (ahead->count > 1)
         read_groups(ahead);

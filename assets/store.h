@@ -1,4 +1,4 @@
-// The store behind assets.h: meshes and images by canonical path, size and time, with counted references.
+// The store behind assets.h: meshes and images by canonical path, size and time, with reference counts.
 //
 // A hold is one scene's references. Entries without references stay until the next load is done, so that an
 // edit that removes a mesh and puts it back does not read it again. Entries live on the heap.
@@ -23,11 +23,11 @@ struct store_entry {
     uint64_t size_bytes;
     int64_t modified_ns;
     uint32_t references;
-    bool is_whole; // what is known will be found again; others never are, and are freed by the next sweep
+    bool is_whole; // later loads will find this entry; others are never found, and freed by the next sweep
     struct mesh mesh;
     struct picture picture;
     uint64_t decoder_bytes;    // that decoding takes besides the pixels
-    const char *picture_fault; // why it cannot be decoded, which is known of the file too; NULL: it can
+    const char *picture_fault; // why it cannot be decoded, remembered for the file too; NULL: it can
 };
 
 struct asset_hold {
@@ -49,9 +49,9 @@ struct store_entry *store_find(struct asset_hold *hold, enum store_kind kind,
 // A new entry, referenced by the hold and not whole yet; NULL: no memory.
 struct store_entry *store_add(struct asset_hold *hold, enum store_kind kind,
                               const struct file_read *identity);
-// The entry is whole from now on: what is known of its file will be found again.
+// The entry is whole from now on: later loads will find it.
 void store_complete(struct asset_hold *hold, struct store_entry *entry);
-// Frees what nothing refers to, and what is not whole.
+// Frees entries that nothing refers to, and those that are not whole.
 void store_sweep(struct asset_store *store);
 
 #endif

@@ -9,8 +9,8 @@
 
 // ---- images
 
-// An image of a material file that cannot be had: its material's own colour counts, as in programs that show
-// none.
+// If an image of a material file is not available, its material's own colour counts, as in programs that show
+// no images.
 static bool is_found(const struct material_source *source, str name) {
     struct asset_file *file = source->file;
     const struct assets_input *input = file->input;
@@ -27,7 +27,7 @@ static bool is_found(const struct material_source *source, str name) {
     return false;
 }
 
-// MTL multiplies the image by Kd: a weight, where Kd is grey.
+// MTL multiplies the image by Kd: a weight if Kd is grey.
 void loader_settle_image(struct loader *loader, uint32_t material) {
     struct ir_material *m = &loader->materials.items[material];
     const struct material_source *source = &loader->sources.items[material];
@@ -75,7 +75,7 @@ static bool find_in_document(const struct material_source *source, struct asset_
     return finding.found;
 }
 
-// Images of a document may share their bytes, whole or in part; these count once.
+// Images of a document may share bytes, whole or in part; shared bytes count once.
 static uint64_t file_bytes(const struct loader *loader, const struct loaded_image *image,
                            const struct file_read *identity) {
     const str own = image->held;
@@ -189,7 +189,7 @@ static void read_guarded(struct loader *loader, struct loaded_mesh *loaded) {
     arena_finish(scratch);
 }
 
-// Faces that show an image and have no place in it, by their groups' materials.
+// Reports faces that show an image without coordinates for it, by their groups' materials.
 static void report_bare(struct loader *loader, const struct assets_model *model, struct loaded_mesh *loaded) {
     const struct mesh *mesh = loaded->mesh;
     uint32_t count = 0, first = 0, last_line = 0;

@@ -8,7 +8,7 @@
 enum {
     EXPONENT_MAX = 1000, // of a power of two that is a double
     GRID_SIDE_MAX = 256,
-    WORK_PER_CORNER = 1000, // point tests and grid cells, before corners are cut unchecked
+    WORK_PER_CORNER = 1000, // point tests and grid cells per corner, before corners are cut unchecked
 };
 
 #define ROUNDING_MARGIN 0x1p-40
@@ -200,8 +200,7 @@ enum level {
     LEVEL_ANY,
 };
 
-// Whether the boundary through corner `k`, which is at the same position as corner `i`, continues into the
-// ear at i.
+// Whether the boundary through corner `k`, at the same position as corner `i`, continues into the ear at i.
 static bool enters_ear(const struct clipping *c, uint32_t k, uint32_t i) {
     const struct triangulate_point *p = c->points;
     struct triangulate_point before = p[c->links[i].previous], at = p[i], after = p[c->links[i].next];
@@ -331,8 +330,8 @@ static void enqueue_all(struct clipping *c, uint32_t from) {
     c->work_left -= c->left < c->work_left ? c->left : c->work_left;
 }
 
-// Cuts a corner, and spikes that this makes of its neighbours: if left, they would be mistaken for the other
-// side of the boundary. Returns a corner that is left.
+// Cuts a corner, and neighbours that thereby become spikes: if kept, they would be mistaken for the other
+// side of the boundary. Returns a corner that remains.
 static uint32_t cut_with_spikes(struct clipping *c, uint32_t i) {
     cut(c, i);
     uint32_t before = c->links[i].previous;

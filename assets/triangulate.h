@@ -18,7 +18,7 @@ struct triangulate_link;
 struct triangulate_point;
 
 struct triangulator {
-    struct arena *arena; // for memory that is used again from polygon to polygon
+    struct arena *arena; // for memory that is reused from polygon to polygon
     uint32_t capacity;   // corners
     struct triangulate_point *points;
     struct triangulate_link *links;

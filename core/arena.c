@@ -78,7 +78,8 @@ static bool is_single(size_t need) {
 #endif
 }
 
-// Whether an allocation already made is sure to have one: smaller ones may share a block that had room.
+// Whether an allocation already made certainly has a block of its own: smaller ones may share one that had
+// room.
 static bool has_own_block(size_t need) {
 #ifdef GLINT_ARENA_EXACT
     (void)need;
@@ -236,7 +237,7 @@ str arena_format(struct arena *arena, const char *format, ...) {
     int length = vsnprintf(NULL, 0, format, args);
     va_end(args);
     if (length < 0) {
-        heap_exhausted(0); // of a format that is right, only memory can be lacking
+        heap_exhausted(0); // a correct format fails only for lack of memory
         arena_raise(arena, ARENA_FAULT_SYSTEM);
     }
     size_t size = (size_t)length;

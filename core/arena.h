@@ -40,7 +40,7 @@ struct arena {
 void arena_init(struct arena *arena, size_t cap_bytes);
 // Frees all; the arena may be used again, with the same cap. NULL does nothing.
 void arena_finish(struct arena *arena);
-// Frees all but one block, which is kept for later use: for memory that is needed item by item.
+// Frees all but one block, which is kept for reuse: for memory that each item needs anew.
 void arena_reset(struct arena *arena);
 
 typedef void arena_work(void *context);
@@ -52,7 +52,7 @@ enum arena_fault arena_guarded(struct arena *arena, arena_work *work, void *cont
 // jump past this call, and leave the arenas named here with a stale guard.
 enum arena_fault arena_guarded_all(struct arena *const *arenas, arena_work *work, void *context);
 
-// `size` zeroed bytes, aligned to 16. A size of 0 returns a valid pointer.
+// Returns `size` zeroed bytes, aligned to 16. A size of 0 returns a valid pointer.
 void *arena_alloc(struct arena *arena, size_t size);
 // As `arena_alloc`, but returns NULL when that would jump.
 void *arena_try_alloc(struct arena *arena, size_t size);
@@ -81,8 +81,8 @@ void *arena_regrow(struct arena *arena, void *items, size_t count, uint32_t *cap
 #define ARENA_IS_FULL(list) ((list)->count >= (list)->capacity)
 // Frees an array that arena_regrow made; small ones stay with the arena. NULL does nothing.
 void arena_give_back(struct arena *arena, void *items, uint32_t capacity, size_t item_size);
-// Moves an array, which `from` gave with a size of `capacity` items, to another arena, where it is. false: it
-// is too small for that, or more than `to` may have, and nothing has changed.
+// Hands an array of `capacity` items, allocated by `from`, to another arena without copying it. false: it is
+// too small for that, or more than `to` may have; nothing has changed.
 bool arena_hand_over(struct arena *from, struct arena *to, void *items, uint32_t capacity, size_t item_size);
 // Appends a zeroed item to a list {items, count, capacity}; returns its address.
 #define ARENA_PUSH(arena, list)                                                                              \

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-// The frame between first and last key that the loop shows.
+// The frame between the first and the last key that the loop maps to.
 static double inside(const struct curve *c, double frame) {
     const double first = c->frames[0], span = c->frames[c->count - 1] - first;
     if (c->loop == CURVE_ONCE || !(span > 0))
@@ -37,9 +37,9 @@ static double slope_between(const struct curve *c, uint32_t a, uint32_t b, uint3
     return (value(c, b, i) - value(c, a, i)) / (c->frames[b] - c->frames[a]);
 }
 
-// At the ends a loop that turns back does so without speed. One that begins anew goes over its seam at one
-// speed, that from the key before the last to the one after the first, where the first and the last are the
-// same moment: also where their values differ, as those of a whole turn do.
+// A mirrored loop has no speed at its ends. A repeated one passes its seam at one speed: the slope from the
+// key before the last to the key after the first, where the first and the last key count as the same moment,
+// even if their values differ, as those of a whole turn do.
 static double slope(const struct curve *c, uint32_t key, uint32_t i) {
     const uint32_t last = c->count - 1;
     if (key > 0 && key < last)

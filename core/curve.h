@@ -1,7 +1,7 @@
-// Keys, and what lies between them: the value of a track at a frame.
+// Keys and the values between them: the value of a track at a frame.
 //
-// Input: keys in the order of their frames, no two at one. Output: finite numbers, if those of the keys are;
-// at a key exactly its value. Errors: none. Ownership: the caller's. Thread safety: pure.
+// Input: keys in the order of their frames, no two at the same frame. Output: finite numbers if the keys'
+// are; at a key, exactly its value. Errors: none. Ownership: the caller's. Thread safety: pure.
 #ifndef GLINT_CORE_CURVE_H
 #define GLINT_CORE_CURVE_H
 
@@ -16,8 +16,8 @@ enum curve_way {
 };
 
 enum curve_loop {
-    CURVE_ONCE,   // before the first key its value, after the last one that one's
-    CURVE_REPEAT, // from the last key on as from the first; smooth: over the seam at one speed
+    CURVE_ONCE,   // the first key's value before it, the last key's after it
+    CURVE_REPEAT, // after the last key again from the first; smooth: the same speed on both sides
     CURVE_MIRROR, // from the last key on back to the first
 };
 
@@ -35,7 +35,7 @@ struct curve {
 };
 
 void curve_at(const struct curve *curve, double frame, double out[CURVE_WIDTH_MOST]);
-// The last key that is not after the frame, once loops are taken away; the first one before all.
+// The last key at or before the frame, once loops are folded away; the first key for frames before all.
 uint32_t curve_key(const struct curve *curve, double frame);
 
 #endif

@@ -10,7 +10,8 @@
 enum {
     ARGUMENTS_MAX = 64,
     DEPTH_MAX = 64,
-    // What waits at each depth: arguments, the left sides of a sum and of a product, and what a power is of.
+    // The operands that wait at each depth: arguments, the left sides of a sum and of a product, a power's
+    // base.
     VALUES_MAX = DEPTH_MAX * (ARGUMENTS_MAX + 3),
 };
 
@@ -28,13 +29,13 @@ enum step_kind {
     STEP_CALL,
 };
 
-// Times of an addition. A remainder takes one per binary digit that its operands' sizes differ by.
+// Costs in units of an addition. A remainder costs one per binary digit by which its operands' sizes differ.
 enum {
     COST_POWER = 8,
     COST_REMAINDER = 128,
 };
 
-// Takes its values from the end of a list, and puts one there.
+// A step takes its values from the end of a list and appends its result.
 struct expression_step {
     uint8_t kind;        // step_kind
     uint8_t function;    // STEP_CALL: in `functions`
@@ -43,7 +44,7 @@ struct expression_step {
     double number;
 };
 
-// Each step is of at least one character, so that a text has no more of them than characters.
+// Each step takes at least one character, so a text has no more steps than characters.
 struct scan {
     str text;
     size_t at;

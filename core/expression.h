@@ -2,9 +2,9 @@
 // expressions in braces.
 //
 // Input: text, compiled once; which frame it is. Output: a finite number, or the text with numbers in place
-// of braces. Errors: a fault with its place in the text. An expression is `+ - * / % ^`, parentheses,
-// numbers, the names and functions that expression_names lists; angles are in radians. Its value depends on
-// its text and the frame alone. Ownership: what is compiled lies in the arena. Thread safety: pure.
+// of braces. Errors: a fault and its place in the text. An expression is `+ - * / % ^`, parentheses, numbers,
+// the names and functions that expression_names lists; angles are in radians. Its value depends on its text
+// and the frame alone. Ownership: compiled expressions are in the arena. Thread safety: pure.
 #ifndef GLINT_CORE_EXPRESSION_H
 #define GLINT_CORE_EXPRESSION_H
 
@@ -13,7 +13,7 @@
 
 struct expression_at {
     double frame;
-    double time; // seconds: frame / frames a second
+    double time; // seconds: frame / frames per second
 };
 
 struct expression_fault {
@@ -25,7 +25,7 @@ struct expression_step;
 struct expression {
     const struct expression_step *steps;
     uint32_t count;
-    uint64_t cost;      // of one value, in additions
+    uint64_t cost;      // cost of one value, in additions
     size_t text_length; // for faults
 };
 
@@ -42,9 +42,9 @@ bool expression_fill(str text, const struct expression_at *at, struct strbuf *ou
                      struct expression_fault *fault);
 // All names that an expression may use: "frame, time, pi, ... sin(x), ...".
 void expression_names(struct strbuf *out);
-// What a text with expressions uses whose last bit depends on the C library, so that a frame need not be the
-// same number everywhere: a set, 0 if nothing, and its names, "sin, ^, #rrggbb".
-#define EXPRESSION_INEXACT_HEX (1u << 31) // a colour as #rrggbb that is decoded beside an expression
+// The functions and operators in a text with expressions whose last bit depends on the C library, so that a
+// frame's numbers may differ between systems: as a set (0: none), and as names, "sin, ^, #rrggbb".
+#define EXPRESSION_INEXACT_HEX (1u << 31) // a #rrggbb colour decoded next to an expression
 unsigned expression_inexact(str text);
 void expression_inexact_names(unsigned used, struct strbuf *out);
 

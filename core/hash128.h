@@ -1,4 +1,4 @@
-// A hash of 128 bits: XXH64 with two seeds. For keys of files that are kept, not against attackers.
+// A hash of 128 bits: XXH64 with two seeds. For the keys of cached files, not against attackers.
 //
 // Numbers are added value by value, since structs have padding. Thread safety: a state belongs to one thread.
 #ifndef GLINT_CORE_HASH128_H

@@ -23,8 +23,8 @@ void heap_exhausted(size_t size_bytes) {
         on_exhausted(size_bytes);
 }
 
-// Only whole huge pages are named, so that nothing changes for what lies beside. A system that has none, or
-// does not want them used, gives the memory as it would have: what it answers is of no interest.
+// Only whole huge pages are named, so nothing changes for the memory around them. A system that has none, or
+// does not want them used, gives the memory as usual: its answer does not matter.
 void heap_expect(void *memory, size_t size) {
     const int error = errno;
     const uintptr_t begin = ((uintptr_t)memory + HUGE_PAGE_BYTES - 1) & ~(uintptr_t)(HUGE_PAGE_BYTES - 1);

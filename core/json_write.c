@@ -37,7 +37,7 @@ static void new_line(struct json_writer *w) {
     strbuf_repeat(w->out, ' ', (size_t)w->depth * 2);
 }
 
-// What comes before a value: the comma after the previous one, and the key.
+// Writes what comes before a value: the comma after the previous one, and the key.
 static void begin_value(struct json_writer *w, const char *key) {
     if (w->filled[w->depth])
         strbuf_cstr(w->out, w->depth >= w->flat_depth ? ", " : ",");

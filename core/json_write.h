@@ -1,4 +1,4 @@
-// JSON as text, written from the front to the back into a buffer.
+// JSON text, written from front to back into a buffer.
 //
 // Commas, line ends and indentation are added by the writer; below `flat_depth` open brackets a value is on
 // one line, so that a list of records has a line for each. Text that is not UTF-8 becomes U+FFFD, so that the
@@ -21,7 +21,7 @@ struct json_writer {
 };
 
 void json_writer_init(struct json_writer *writer, struct strbuf *out, unsigned flat_depth);
-// A report: an object that says which one it is, "glint pick", in which version of its format, and its end.
+// Begins and ends a report: an object that names itself ("glint pick") and the version of its format.
 // docs/reports.md says what a version promises.
 void json_report_begin(struct json_writer *writer, struct strbuf *out, unsigned flat_depth, const char *name,
                        unsigned version);

@@ -39,7 +39,7 @@ bool limits_set_value(struct limits *limits, enum limit which, str value);
 // Copies from `from` the limits that were set there and not in `limits`.
 void limits_fill(struct limits *limits, const struct limits *from);
 const struct limit_info *limit_info(enum limit which);
-// A limit of bytes for memory of this process: no more than half of what a size_t can say.
+// A byte limit for this process's memory: at most half of what a size_t can hold.
 size_t limits_size(const struct limits *limits, enum limit which);
 
 #endif

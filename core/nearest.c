@@ -37,7 +37,7 @@ static unsigned distance_up_to(str a, str b, unsigned most) {
                 row[j] = least(row[j], before[j - 2] + 1);
             nearest = least(nearest, row[j]);
         }
-        // What follows comes from this row, or by a transposition from the one above it.
+        // The next rows derive from this row or, by a transposition, from the one above it.
         if (nearest > most && nearest_above >= most)
             return UINT_MAX;
         nearest_above = nearest;

@@ -14,12 +14,12 @@ struct nearest {
     str best; // empty: none is near enough
     unsigned best_distance;
     uint64_t letters; // of the word, a bit each
-    uint64_t *left;   // what comparing words may still cost, shared by many searches; NULL: any amount
+    uint64_t *left;   // what comparisons may still cost, shared by many searches; NULL: any amount
 };
 
 struct nearest nearest_begin(str word);
-// As nearest_begin, where words and candidates are as many as a file likes: candidates that are offered when
-// nothing is left are not looked at. A comparison costs the product of the lengths.
+// As nearest_begin, for when a file decides how many words and candidates there are: candidates offered when
+// nothing is left are ignored. A comparison costs the product of the lengths.
 struct nearest nearest_begin_within(str word, uint64_t *left);
 void nearest_offer(struct nearest *search, str candidate);
 // The best candidate, or the empty string.

@@ -324,9 +324,10 @@ static size_t write_decimal(const char *scientific, char *out) {
     return length;
 }
 
-// Most numbers that people write have a few decimals: the fewest that give an integer of at most DBL_DIG
-// digits, which divided by its power of ten is the value again. Such a decimal is the only one with so few
-// digits that reads as the value (and dividing rounds once, as in `read_fast`), so it is the shortest.
+// Most numbers that people write have few decimals. This finds the fewest decimals that make the value an
+// integer of at most DBL_DIG digits which, divided by its power of ten, gives the value again. No other
+// decimal with so few digits reads as the value (and dividing rounds once, as in `read_fast`), so it is the
+// shortest.
 static size_t format_fast(double value, char *out) {
     double size = fabs(value);
     if (!DOUBLE_IS_DOUBLE || size < 1e-5)
@@ -378,8 +379,8 @@ static bool reads_back(const char *text, double value) {
 }
 
 // printf writes the nearest decimal with that number of digits. Above a power of two doubles are twice as far
-// apart as below it: there the next decimal away from 0 may read back although the nearest, on the other
-// side, does not.
+// apart as below it: at one, the next decimal away from 0 may read back while the nearest, on the other side,
+// does not.
 static bool print_digits(double value, int digits, char scientific[NUMBER_FORMAT_MAX]) {
     snprintf(scientific, NUMBER_FORMAT_MAX, "%.*e", digits - 1, value);
     if (reads_back(scientific, value))
@@ -396,7 +397,7 @@ size_t number_format(double value, char out[NUMBER_FORMAT_MAX]) {
     size_t length = format_fast(value, out);
     if (length)
         return length;
-    // Every decimal of DBL_DIG digits survives a normal double, so that trying fewer finds nothing more.
+    // Every decimal of DBL_DIG digits survives a normal double, so trying fewer finds nothing shorter.
     int digits = fabs(value) < DBL_MIN ? 1 : DBL_DIG;
     char scientific[NUMBER_FORMAT_MAX];
     while (!print_digits(value, digits, scientific))

@@ -50,7 +50,7 @@ enum {
 };
 // Writes the fewest digits that read back to the same double (of several such numbers the nearest), large
 // and small ones as 1.0e+20, followed by a NUL; returns the length. -0 is written as 0. NaN and infinity,
-// which no scene can hold, come out as .nan and .inf, which no reader accepts.
+// which no scene can contain, are written as .nan and .inf, which no reader accepts.
 size_t number_format(double value, char out[NUMBER_FORMAT_MAX]);
 
 #endif

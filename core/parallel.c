@@ -14,11 +14,11 @@ enum {
     THREADS_MAX = 64
 };
 
-// How many threads a call may use: 0 is all processors. Within a piece that runs beside others, 0 is its
-// thread's share, so that nested calls do not multiply their threads.
+// How many threads a call may use: 0 is all processors. Within a piece that runs in parallel with others, 0
+// is its thread's share, so nested calls do not multiply their threads.
 static _Thread_local unsigned share;
 
-// Who looks on at this thread, and the loop whose progress it sees; NULL: there is none.
+// The observer of this thread, and the loop whose progress it sees; NULL: none.
 static _Thread_local const struct parallel_looker *looker;
 static _Thread_local const struct job *shown;
 

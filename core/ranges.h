@@ -8,9 +8,9 @@
 #define RANGE_SAMPLES_MOST 4096     // rays through a pixel
 #define RANGE_PIXELS_MOST  67108864 // of a picture, or of a part of one, that is held in memory as a whole
 #define RANGE_FRAMES_MOST  100000   // of an animation
-#define RANGE_RATE_LEAST   0.001    // frames a second
+#define RANGE_RATE_LEAST   0.001    // frames per second
 #define RANGE_RATE_MOST    1000
-#define RANGE_BROKEN_MOST  1e9 // pixels that a bound of what is not a number may allow
+#define RANGE_BROKEN_MOST  1e9 // how many not-a-number pixels a bound may allow
 
 // A number as text, for a message: RANGE_TEXT(RANGE_SIDE_MOST) is "16384".
 #define RANGE_TEXT(number)    RANGE_TEXT_OF(number)

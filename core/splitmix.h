@@ -7,7 +7,7 @@
 
 #define SPLITMIX_STEP UINT64_C(0x9E3779B97F4A7C15)
 
-// The number of the sequence that follows the state `z`. Pure: one number of 64 random bits for each `z`.
+// The number that follows the state `z` in the sequence. Pure: 64 random bits for each `z`.
 static inline uint64_t splitmix(uint64_t z) {
     z += SPLITMIX_STEP;
     z = (z ^ z >> 30) * UINT64_C(0xBF58476D1CE4E5B9);

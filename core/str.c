@@ -78,7 +78,7 @@ uint64_t str_hash(str s) {
     return h;
 }
 
-// Eight bytes at a time: a byte is below 0x20 if subtracting that borrows into its highest bit, and 0x7F if
+// Eight bytes at a time: a byte is below 0x20 if subtracting 0x20 borrows into its highest bit, and 0x7F if
 // adding 1 carries into it.
 size_t str_skip_printable(str s, size_t at) {
     const uint64_t ones = UINT64_C(0x0101010101010101), high = ones * 0x80;

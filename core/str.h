@@ -80,8 +80,8 @@ str str_trim(str s);
 static inline size_t str_skip_mark(str text) {
     return str_starts_with(text, STR("\xEF\xBB\xBF")) ? 3 : 0;
 }
-// The kind of line end that most lines of a text have; if counts are equal, "\n" comes before "\r\n", and
-// that before "\r".
+// The kind of line end that most lines of a text have; of equal counts "\n" wins over "\r\n", and "\r\n" over
+// "\r".
 str str_line_end(str text);
 
 // FNV-1a, 64 bits (Fowler, Noll, Vo).

@@ -113,7 +113,7 @@ void strbuf_vformat(struct strbuf *buffer, const char *format, va_list args) {
     va_copy(again, args);
     int length = vsnprintf(NULL, 0, format, args);
     if (length < 0) {
-        heap_exhausted(0); // of a format that is right, only memory can be lacking
+        heap_exhausted(0); // a correct format fails only for lack of memory
         buffer->failed = true;
     } else if (reserve(buffer, (size_t)length)) {
         vsnprintf(buffer->data + buffer->len, (size_t)length + 1, format, again);

@@ -29,7 +29,7 @@ void strbuf_cstr(struct strbuf *buffer, const char *s);
 void strbuf_char(struct strbuf *buffer, char c);
 // Text of XML and HTML, also within double quotes.
 void strbuf_markup(struct strbuf *buffer, str s);
-// As digits of base64 (RFC 4648), with '=' to a multiple of four.
+// As base64 (RFC 4648), padded with '=' to a multiple of four.
 void strbuf_base64(struct strbuf *buffer, str bytes);
 void strbuf_repeat(struct strbuf *buffer, char c, size_t count);
 void strbuf_format(struct strbuf *buffer, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -48,7 +48,7 @@ static bool same(const struct line *a, const struct line *b) {
     return a->hash == b->hash && str_equal(a->text, b->text);
 }
 
-// The part of both sides between the lines that are equal at both ends.
+// What remains of both sides without the equal lines at the beginning and the end.
 struct middle {
     struct line *a, *b;
     int32_t n, m;
@@ -64,7 +64,7 @@ static int32_t furthest(const struct rows *rows, int32_t d, int32_t k) {
     return rows->items[d][d + k];
 }
 
-// Where the path to diagonal k with d edits leaves the path with d - 1: whether a line of `b` was added.
+// Whether the path to diagonal k with d edits extends the path with d - 1 by adding a line of `b`.
 static bool came_down(const struct rows *rows, int32_t d, int32_t k) {
     return k == -d || (k != d && furthest(rows, d - 1, k - 1) < furthest(rows, d - 1, k + 1));
 }

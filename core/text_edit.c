@@ -37,8 +37,8 @@ static uint32_t settle_cluster(struct text_edit *edits, uint32_t count) {
     return kept;
 }
 
-// Whether an edit may collide with those before it, which end at `end`. Ranges that only touch do not, and
-// are a thousand in a row where a line is all comments; an insertion between them may.
+// Whether an edit may collide with those before it, which end at `end`. Ranges that only touch do not (a line
+// of nothing but comments has a thousand in a row); an insertion between them may.
 static bool joins(const struct text_edit *edits, uint32_t i, uint32_t end) {
     const struct text_edit *edit = &edits[i];
     bool touches = edit->begin == end;

@@ -10,10 +10,10 @@
 struct text_edit {
     uint32_t begin, end; // bytes; equal: an insertion
     str text;
-    uint32_t order; // of two that overlap, or insert at the same place, the lower one stays
+    uint32_t order; // of two that overlap or insert at the same place, the lower stays
 };
 
-// Sorts the edits by place and drops repeats and those that touch a byte, or an insertion's place, of one
+// Sorts the edits by place and drops repeats, and edits that touch a byte or the insertion place of an edit
 // with a lower order. Returns how many are left, at the front.
 uint32_t text_edits_settle(struct text_edit *edits, uint32_t count);
 // The text with all edits made; they must be settled and inside it.

@@ -19,7 +19,7 @@ void timeline_add(struct timeline *timeline, const char *name, str detail, doubl
         timeline->ended(timeline->context, name);
 }
 
-// What began at the same time and is longer holds the other.
+// Of two phases that began together, the longer one contains the other.
 static int compare(const void *a, const void *b) {
     const struct timeline_phase *x = a, *y = b;
     if (x->begin != y->begin)

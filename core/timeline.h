@@ -1,9 +1,9 @@
 // What a program did when, and on which thread: phases with a name, a start and a length, by clock_seconds.
 //
-// A call with NULL in place of a timeline does nothing, so that what is not asked for costs a comparison.
-// Ownership: names are constants, details the caller's, which live as long as the timeline is read. Errors:
-// phases beyond TIMELINE_MOST are only counted. Thread safety: timeline_add is safe on any thread; reading is
-// for when all of them are done.
+// A call with NULL in place of a timeline does nothing, so a timeline that nobody asked for costs one
+// comparison. Ownership: names are constants; details are the caller's and must live as long as the timeline
+// is read. Errors: phases beyond TIMELINE_MOST are only counted. Thread safety: timeline_add is safe on any
+// thread; read only after all of them are done.
 #ifndef GLINT_CORE_TIMELINE_H
 #define GLINT_CORE_TIMELINE_H
 
@@ -30,9 +30,9 @@ struct timeline {
     struct timeline_phase phases[TIMELINE_MOST];
 };
 
-// The phase `name`, of this thread, which began at `begin` and ends now.
+// Adds the phase `name` of this thread, which began at `begin` and ends now.
 void timeline_add(struct timeline *timeline, const char *name, str detail, double begin);
-// The phases that are kept, in the order of their beginning.
+// Sorts the kept phases by when they began.
 unsigned timeline_sort(struct timeline *timeline);
 
 #endif

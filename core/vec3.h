@@ -54,7 +54,7 @@ static inline vec3 vec3_min(vec3 a, vec3 b) {
 static inline vec3 vec3_max(vec3 a, vec3 b) {
     return (vec3){fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z)};
 }
-// The same of coordinates that are never NaN, by plain comparisons: fmin and fmax are function calls.
+// The same for coordinates that are never NaN, by plain comparisons: fmin and fmax are function calls.
 static inline vec3 vec3_least(vec3 a, vec3 b) {
     return (vec3){a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
 }
@@ -73,7 +73,7 @@ static inline bool vec3_is_zero(vec3 a) {
 }
 
 // Whether the squares of coordinates up to this size neither overflow nor underflow where it matters: then
-// dividing by a power of two before would not change a bit, and costs more than all the rest.
+// dividing by a power of two first would not change a bit, but would cost more than all the rest.
 static inline bool vec3_squares_fit(double largest) {
     return largest > 0x1p-400 && largest < 0x1p400;
 }
@@ -144,7 +144,7 @@ struct vec3_turn {
     double sine, cosine;
 };
 
-// Reduced to -45..45 degrees without rounding (remquo is exact), so that quarter turns are.
+// Reduced to -45..45 degrees without rounding (remquo is exact), so quarter turns are exact.
 static inline struct vec3_turn vec3_turn_of(double degrees) {
     int quarter;
     double rest = remquo(degrees, 90, &quarter) * 0.017453292519943295769 /* pi / 180 */;

@@ -1,4 +1,4 @@
-// XXH64, the 64-bit hash of Yann Collet's xxHash, by the header of his library: fast, well spread, not for
+// XXH64, the 64-bit hash of Yann Collet's xxHash, from his library's header: fast, well spread, not for
 // secrets. Thread safety: a state belongs to one thread.
 #ifndef GLINT_CORE_XXH64_H
 #define GLINT_CORE_XXH64_H
@@ -12,7 +12,7 @@ struct xxh64 {
 
 void xxh64_begin(struct xxh64 *state, uint64_t seed);
 void xxh64_add(struct xxh64 *state, const void *bytes, size_t count);
-// Of all that was added; more may be added afterwards.
+// The hash of everything added so far; more may be added afterwards.
 uint64_t xxh64_end(const struct xxh64 *state);
 uint64_t xxh64_of(const void *bytes, size_t count, uint64_t seed);
 

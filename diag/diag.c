@@ -10,7 +10,7 @@
 enum {
     SINK_BYTES_MAX = 64 * 1024 * 1024,
     TEXT_BYTES_MAX = 2000,               // of one message, note or help line
-    SEARCH_COST_MAX = 100 * 1000 * 1000, // of all suggestions: some tenths of a second
+    SEARCH_COST_MAX = 100 * 1000 * 1000, // for all suggestions: some tenths of a second
 };
 
 void diag_sink_init(struct diag_sink *sink) {
@@ -227,7 +227,7 @@ static void uncount(struct diag_sink *sink, enum diag_severity severity) {
 }
 
 // Removes what was reported before. `slots` (a power of two of them, zeroed) hold 1 + the index of an item
-// kept: a table and not a look at the neighbours, because a thousand may be at one place.
+// kept: a table instead of comparing neighbours, because a thousand may be at one place.
 static void drop_repeats(struct diag_sink *sink, uint32_t *slots, size_t slot_count) {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < sink->count; i++) {

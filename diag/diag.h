@@ -29,7 +29,7 @@ enum diag_where {
 };
 
 // A code: those of a family follow each other from its first digit times DIAG_FAMILY on (diag/codes/).
-// Numbers between them are none: diag_next goes from code to code.
+// The numbers between families are not codes: diag_next goes from code to code.
 typedef int diag_code;
 enum {
     DIAG_FAMILY = 128,
@@ -63,8 +63,8 @@ struct diag {
     bool fix_is_safe; // the only possible meaning; else a suggestion
     span fix_at;
     str fix_text;
-    str fix_file; // if not empty: of a file that is not there, and that the fix creates with fix_text; no
-                  // has_fix
+    str fix_file; // if not empty: a missing file that the fix creates with fix_text; has_fix
+                  // is false then
 };
 
 struct diag_sink {
@@ -78,9 +78,9 @@ struct diag_sink {
     uint32_t notes;
     uint32_t dropped; // did not fit into the sink; counted above too
     uint32_t dropped_of[DIAG_CODE_COUNT];
-    uint64_t search_left; // what looking for suggestions may still cost (core/nearest.h)
+    uint64_t search_left; // what searching for suggestions may still cost (core/nearest.h)
     struct diag spare;    // stands for a diagnostic that was dropped
-    bool last_kept;       // whether notes, help and fix have something to belong to
+    bool last_kept;       // whether notes, help and fix have a diagnostic to belong to
 };
 
 // A sink keeps this many diagnostics by itself.
@@ -97,12 +97,13 @@ void diag_sink_keep(struct diag_sink *sink, uint32_t most);
 // longer than 2000 bytes are cut.
 struct diag *diag_add(struct diag_sink *sink, diag_code code, span at, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
-// Whether diag_add only counts from now on: what takes time to find, such as a suggestion, can be left out.
+// Whether diag_add only counts from now on: then callers can skip what takes time to find, such as a
+// suggestion.
 bool diag_is_full(const struct diag_sink *sink);
 // Each of these adds to the diagnostic that was added last, or does nothing if that was dropped.
 void diag_note(struct diag_sink *sink, span at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-// As diag_note, for one that was added before.
+// As diag_note, for a diagnostic that was added before.
 void diag_note_to(struct diag_sink *sink, struct diag *item, span at, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 void diag_help(struct diag_sink *sink, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -115,7 +116,7 @@ void diag_fix_part(struct diag_sink *sink, const struct source_set *sources, boo
                    str replacement);
 
 const struct diag_info *diag_info(diag_code code);
-// The stage that a code belongs to by its first digit: "syntax", "binding", ...
+// The stage given by a code's first digit: "syntax", "binding", ...
 const char *diag_stage(diag_code code);
 // The code after this one, -1 for the first; DIAG_CODE_COUNT after the last.
 diag_code diag_next(diag_code code);
@@ -125,8 +126,8 @@ diag_code diag_find(str code);
 // Sorts by source, place and order of report; drops exact repeats (same code, place and message). If memory
 // for sorting is lacking, the order of report stays.
 void diag_sort(struct diag_sink *sink);
-// Removes what `keep` refuses, in order; the counts follow what is left, with its severities as they now are.
-// Diagnostics that were dropped are kept in the counts.
+// Removes what `keep` refuses, in order; the counts follow the remaining diagnostics and their present
+// severities. Diagnostics that were dropped are kept in the counts.
 typedef bool diag_keep(void *context, struct diag *item);
 void diag_filter(struct diag_sink *sink, diag_keep *keep, void *context);
 // Adds a copy of all of `from` after those of `into`, the counts of dropped ones included.

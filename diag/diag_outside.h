@@ -1,12 +1,12 @@
-// What is said of a file that lies outside what a scene may read.
+// What glint says about a file outside the folders that a scene may read.
 #ifndef GLINT_DIAG_DIAG_OUTSIDE_H
 #define GLINT_DIAG_DIAG_OUTSIDE_H
 
 #include "diag/diag.h"
 #include "files/files.h"
 
-// Help, and a fix if there is one, of the diagnostic that was added last: the scene names `path`, which led
-// to `target`.
+// Adds help, and a fix if there is one, to the diagnostic added last: the scene names `path`, which led to
+// `target`.
 void diag_outside(struct diag_sink *sink, struct files *files, str path, str target);
 
 #endif

@@ -40,35 +40,35 @@ struct diag_policy {
 enum diag_policy_status {
     DIAG_POLICY_SET,
     DIAG_POLICY_UNKNOWN_CODE,
-    DIAG_POLICY_ERROR_CODE, // names errors only, which cannot be changed
+    DIAG_POLICY_ERROR_CODE, // names only errors, which cannot be changed
     DIAG_POLICY_BAD_WORD,   // neither error, warning, note nor off
 };
 
 // The words for levels, NULL at the end: [0] is "error" (DIAG_LEVEL_ERROR).
 extern const char *const diag_level_words[];
-// Those for what makes a run fail: [0] is "error" (DIAG_FAIL_ON_ERROR).
+// The words for what makes a run fail: [0] is "error" (DIAG_FAIL_ON_ERROR).
 extern const char *const diag_fail_words[];
 
 // Whether the text has the form of a code or family: a letter E, W or N, and three digits or a digit and
 // "xx".
 bool diag_is_code_text(str text);
-// Whether `code` is what `text` names, or belongs to it.
+// Whether `text` names `code` or its family.
 bool diag_code_matches(diag_code code, str text);
 
 enum diag_policy_status diag_policy_level(struct diag_policy *policy, str codes, str word);
-// Adds to the only codes that are reported.
+// Adds codes to the list of the only ones reported.
 enum diag_policy_status diag_policy_only(struct diag_policy *policy, str codes);
 enum diag_policy_status diag_policy_fail_on(struct diag_policy *policy, str word);
 void diag_policy_ignore_path(struct diag_policy *policy, struct arena *arena, str folder, str pattern);
-// Lays `over` on top: what it sets counts, the rest stays.
+// Applies `over` on top: what it sets takes effect, the rest stays.
 void diag_policy_overlay(struct diag_policy *policy, struct arena *arena, const struct diag_policy *over);
 
-// Whether a file, by its absolute path, is left out.
+// Whether the file with this absolute path is left out.
 bool diag_policy_ignores(const struct diag_policy *policy, str path);
-// Applies it to one diagnostic: sets its severity; false: it must not be reported. `ignored`: it is in a file
-// that is left out.
+// Applies the policy to one diagnostic: sets its severity; false: it must not be reported. `ignored`: it is
+// in a file that is left out.
 bool diag_policy_keeps(const struct diag_policy *policy, struct diag *item, bool ignored);
-// Whether a sink, after that, means that the run fails.
+// Whether the run fails, given a sink filtered by the above.
 bool diag_policy_fails(const struct diag_policy *policy, const struct diag_sink *sink);
 
 #endif

@@ -9,7 +9,7 @@
 
 enum {
     SCENE_BYTES_MAX = 256 * 1024 * 1024,
-    FINDING_BYTES = 550, // on average, per finding kept, in the longest format: 100 stay below 64 KB
+    FINDING_BYTES = 550, // average per kept finding in the longest format: 100 stay below 64 KB
     FINDING_OVERHEAD = 430,
     NOTE_OVERHEAD = 300,
     FIX_OVERHEAD = 400,
@@ -114,7 +114,7 @@ static str scene_path_of(struct adder *adder, const struct diag *d) {
     return path;
 }
 
-// Whether a place is in a file: options have no line that a reader of reports could open.
+// Whether a place is in a file: an option has no line that a reader of reports could open.
 static bool is_in_file(const struct adder *adder, span at) {
     const struct source_set *sources = adder->input->sources;
     enum source_kind kind = at.source < sources->count ? sources->items[at.source].kind : SOURCE_KIND_DEFAULT;
@@ -198,8 +198,8 @@ static uint64_t mix(uint64_t h, str text) {
     return (h ^ str_hash(text)) * UINT64_C(0x9E3779B97F4A7C15) + 1;
 }
 
-// A number for a finding that stays the same when lines before it change: of its code, file, message and
-// line.
+// A number for a finding that stays the same when lines before it change: a hash of its code, file, message
+// and line.
 static uint64_t report_fingerprint(const struct report_finding *finding) {
     uint64_t h = mix(0, str_from(diag_info(finding->code)->code));
     h = mix(h, finding->at.path);
@@ -224,8 +224,8 @@ static uint64_t place_hash(uint64_t fingerprint, const struct report_finding *fi
     return h ^ h >> 29;
 }
 
-// Adds the finding unless it is there already, as another scene's. `places` finds those of one place, `lines`
-// the last one of a fingerprint: thousands may have the same, so that they are not looked at one by one.
+// Adds the finding unless another scene has already added it. `places` finds the findings of one place,
+// `lines` the last one with a fingerprint: thousands may share it, so they are not searched one by one.
 static void add_item(struct report_list *list, struct slots places, struct slots lines,
                      const struct report_finding *finding, uint32_t scene) {
     uint64_t fingerprint = report_fingerprint(finding);

@@ -1,5 +1,6 @@
 // What a run found, as data: one record per scene, with its findings copied out of the sink and the sources,
-// so that both can be freed. diag_report_json.c, _sarif.c, _github.c, _gitlab.c and _junit.c make text of it.
+// so that both can be freed. diag_report_json.c, _sarif.c, _github.c, _gitlab.c and _junit.c turn it into
+// text.
 //
 // Places are as in diag/source.h: lines and columns from 1, columns in code points, the end after the last
 // character. Paths of findings are those of the sources, tidied (core/report_path).
@@ -45,9 +46,9 @@ struct report_file {
     uint64_t size_bytes;
 };
 
-// The number of entries of a list of the scene.
+// The number of entries in a list of the scene.
 struct report_count {
-    const char *name; // of the list: "spheres"
+    const char *name; // the list's name: "spheres"
     uint32_t count;
 };
 
@@ -71,7 +72,7 @@ struct report_scene {
     struct arena arena;
     str path;
     enum report_state state;
-    uint32_t errors, warnings, notes; // all of them, those left out too
+    uint32_t errors, warnings, notes; // all findings, including those left out
     struct {
         struct report_finding *items;
         uint32_t count, capacity;
@@ -88,33 +89,33 @@ struct report {
     const char *root; // the folder that relative paths begin at; absolute
     struct report_scene *scenes;
     uint32_t scene_count;
-    bool notes; // for a format that leaves notes out unless asked
+    bool notes; // for a format that omits notes by default
 };
 
 void report_scene_init(struct report_scene *scene, str path);
 void report_scene_finish(struct report_scene *scene);
 
-// The path in the scene of a place; the empty string if it has none. `context` is the caller's.
+// The scene path of a place in a file; the empty string if it has none. `context` is the caller's.
 typedef str report_find_path(void *context, struct arena *arena, span at);
 struct report_input {
     const struct diag_sink *sink; // sorted
     struct source_set *sources;
     const char *root; // absolute: paths below it become relative to it
-    uint32_t most; // findings to keep (diag/diag_share.h); up to the limit's default also in 550 bytes of a
-                   // report each; the first error is always kept
+    uint32_t most;    // findings to keep (diag/diag_share.h); up to the default limit, also within 550
+                      // bytes of report each; the first error is always kept
     report_find_path *find_path; // NULL: none
     void *context;
 };
 // Copies the findings. false: no memory (what was copied stays).
 bool report_scene_add(struct report_scene *scene, const struct report_input *input);
-// The limit of messages with which all findings of the scene are kept.
+// The message limit that keeps all findings of the scene.
 uint32_t report_needed(const struct report_scene *scene);
 // A path as reports write it: relative to `root` if it is below, without "." and ".." as far as the text
 // alone shows it.
 str report_path(struct arena *arena, const char *root, str path);
 
-// The findings of all scenes in one list, sorted by scene, what several scenes report about one file only
-// once. On the heap: free `items`.
+// The findings of all scenes in one list, sorted by scene; a finding that several scenes report about one
+// file is listed once. On the heap: free `items`.
 struct report_item {
     const struct report_finding *finding;
     uint32_t scene;

@@ -1,5 +1,5 @@
-// Annotations of GitHub Actions, the worst first. GitHub shows ten of each kind per step: those beyond are
-// plain lines of the log, and the last notice says how many there are.
+// GitHub Actions annotations, the worst first. GitHub shows ten of each kind per step: the rest become plain
+// log lines, and the last notice says how many there are.
 #include "diag/diag_report_text.h"
 #include "diag/diag_text.h"
 
@@ -61,7 +61,7 @@ static void plain(struct strbuf *out, const struct report_finding *f) {
     strbuf_finish(&line);
 }
 
-// How many have no annotation: `beyond` are in the log, and others in no report.
+// Says how many findings have no annotation: `beyond` are in the log; others are in no report.
 static void last_notice(struct strbuf *out, const struct report *report, uint64_t beyond) {
     uint64_t left_out = 0;
     uint32_t needed = 0;
@@ -88,7 +88,7 @@ void report_github(struct strbuf *out, const struct report *report) {
     if (!report_list_all(report, &list))
         out->failed = true;
     for (unsigned severity = DIAG_ERROR; severity <= DIAG_NOTE; severity++) {
-        // One notice is kept for the number of those left out.
+        // One notice is reserved for the number of findings left out.
         unsigned room = severity == DIAG_NOTE ? SHOWN_MAX - 1 : SHOWN_MAX;
         if (severity == DIAG_NOTE && !report->notes)
             break;

@@ -1,4 +1,4 @@
-// glint's own report; docs/schema/check-report.schema.json says what it holds.
+// glint's own report; docs/schema/check-report.schema.json describes its contents.
 #include "core/json_write.h"
 #include "diag/diag_report_text.h"
 
@@ -75,7 +75,7 @@ static void statistics(struct json_writer *w, const struct report_assets *a) {
     json_close_object(w);
 }
 
-// What the findings that are not listed are, and what lists them.
+// Which findings are not listed, and how to list them.
 static void left_out(struct json_writer *w, const struct report_scene *s) {
     json_open_list(w, "left_out_codes");
     for (diag_code code = diag_next(-1); code < DIAG_CODE_COUNT; code = diag_next(code)) {

@@ -170,7 +170,7 @@ static void put_rule_name(struct strbuf *out, const char *name) {
     }
 }
 
-// Where the codes are explained, for who reads the report elsewhere.
+// Where the codes are explained, for those who read the report elsewhere.
 static void help_address(struct json_writer *w, const char *home, const char *code) {
     struct strbuf text;
     if (!home || !home[0])

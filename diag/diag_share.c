@@ -5,7 +5,7 @@
 #include <string.h>
 
 enum {
-    MADE_BY_PROGRAMS = 10, // a mesh or an image: what is wrong in one place is mostly wrong in thousands
+    MADE_BY_PROGRAMS = 10, // a mesh or an image: a mistake in one place mostly occurs in thousands
 };
 
 // How many are shown if each code in each source may have `quota`; stops counting above `most`.

@@ -22,8 +22,8 @@ static void paint(struct strbuf *out, struct diag_text_options options, const ch
 }
 
 // Writes the character at `at` as a terminal may show it, counts the columns that it takes from *column on,
-// and returns its length in bytes. Tabs become spaces, so that what is below a line lines up; what a terminal
-// might obey and what is not UTF-8 becomes '?'.
+// and returns its length in bytes. Tabs become spaces, so that the marks below the line align; bytes that a
+// terminal might obey or that are not UTF-8 become '?'.
 static size_t put_character(struct strbuf *out, str s, size_t at, unsigned *column) {
     size_t size = utf8_sequence_length(s, at);
     uint32_t c = size ? utf8_decode(s, at) : 0;
@@ -127,7 +127,7 @@ static void put_hidden(struct strbuf *out, const struct diag_sink *sink, const s
                        uint32_t shown) {
     strbuf_format(out, "glint: %u more message%s not shown (", hidden->count, hidden->count == 1 ? "" : "s");
     diag_hidden_codes(out, hidden);
-    // What the sink had no room for, because memory ended, may have none then either.
+    // The messages that the sink dropped for lack of memory may not fit now either.
     uint32_t total = shown + hidden->count;
     uint32_t kept = sink->dropped ? sink->kept_max + sink->dropped : 0;
     strbuf_format(out, "); --limit messages=%u shows %s\n", diag_share_needed(total > kept ? total : kept),
@@ -146,7 +146,7 @@ void diag_text(struct strbuf *out, const struct diag_sink *sink, struct source_s
         const struct diag *d = &sink->items[i];
         if (d->severity == DIAG_NOTE && !options.notes)
             continue;
-        // A run that fails shows why, however many warnings come first.
+        // A failing run shows why, however many warnings come first.
         bool first_error = d->severity == DIAG_ERROR && !error_shown;
         bool full = bounded && out->len - begin >= (size_t)options.most * MESSAGE_BYTES;
         if ((full && !first_error) || !diag_share_takes(&share, d, first_error)) {

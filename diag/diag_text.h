@@ -17,11 +17,11 @@
 struct diag_text_options {
     bool color;     // ANSI colours
     bool notes;     // show diagnostics of severity "note" too
-    uint32_t most;  // messages shown; up to the limit's default also 500 bytes of text for each; 0 is all
-    uint32_t alike; // of one code in one file at most so many (diag/diag_share.h); 0: no such bound
+    uint32_t most;  // messages shown; up to the default limit also 500 bytes of text each; 0: all
+    uint32_t alike; // at most so many of one code in one file (diag/diag_share.h); 0: no such bound
 };
 
-// What `alike` is where the user did not say how many messages to show.
+// The `alike` to use if the user did not say how many messages to show.
 enum {
     DIAG_TEXT_ALIKE = 50
 };
@@ -31,7 +31,7 @@ enum {
 // shown.
 void diag_text(struct strbuf *out, const struct diag_sink *sink, struct source_set *sources,
                struct diag_text_options options);
-// Text that may quote a scene, on one line, with what a terminal might obey shown as '?'.
+// Writes text that may quote a scene on one line; characters that a terminal might obey become '?'.
 void diag_text_plain(struct strbuf *out, str text);
 // "error", "warning", "note".
 const char *diag_severity_name(enum diag_severity severity);

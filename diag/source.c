@@ -22,9 +22,8 @@ static bool ends_line(str text, size_t at) {
     return text.ptr[at] == '\n' || (text.ptr[at] == '\r' && !(at + 1 < text.len && text.ptr[at + 1] == '\n'));
 }
 
-// Text is made where the arena is not guarded, perhaps because memory has run out: without room for the map,
-// lines are counted again each time.
-// So that a column does not depend on how long its line is.
+// Text is made while the arena is not guarded, perhaps because memory has run out: without room for the map,
+// lines are counted anew each time. So that the time for a column does not depend on the line's length.
 static void map_characters(struct source_set *set, struct source *source) {
     const str text = source->text;
     source->character_count = 0;
@@ -95,7 +94,7 @@ static size_t skip_mark(str text, size_t begin) {
     return begin == 0 ? str_skip_mark(text) : begin;
 }
 
-// An offset inside a character means the character.
+// An offset inside a character stands for that character.
 static size_t character_begin(str text, size_t offset) {
     for (size_t back = 1; back <= 3 && back <= offset; back++)
         if (utf8_sequence_length(text, offset - back) > back)
@@ -123,7 +122,7 @@ static uint32_t column_at(const struct source *source, size_t line_begin, size_t
     return at <= begin ? 1 : (uint32_t)(characters_before(source, at) - characters_before(source, begin)) + 1;
 }
 
-// Where an offset is in its line's text.
+// The position of an offset in its line's text.
 static uint32_t byte_at(const struct source *source, size_t line_begin, size_t offset) {
     const size_t begin = skip_mark(source->text, line_begin), at = character_begin(source->text, offset);
     return at <= begin ? 0 : (uint32_t)(at - begin);
@@ -137,7 +136,7 @@ struct source_place source_locate(struct source_set *set, span at) {
     struct source_place place = {
         .path = source->path, .line = 1, .column = 1, .end_line = 1, .end_column = 1};
     if (source->text.len == 0 || source->kind == SOURCE_KIND_GENERATED)
-        return place; // what no one wrote has no lines to show
+        return place; // generated text has no lines to show
     if (!source->line_starts)
         map_lines(set, source);
     str text = source->text;

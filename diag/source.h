@@ -1,4 +1,4 @@
-// Where text comes from, and where in it something is.
+// Where text comes from, and places in it.
 //
 // A source is a file, a `--set` option, an overlay (unsaved text, fuzz input) or the built-in defaults.
 // A `span` names a source and a range of bytes; lines and columns are computed when text is made,
@@ -71,13 +71,13 @@ uint32_t source_add(struct source_set *set, enum source_kind kind, str path, str
 // The same sources in an arena of their own; their texts and paths are shared.
 void source_set_copy(const struct source_set *from, struct arena *arena, struct source_set *out);
 struct source_place source_locate(struct source_set *set, span at);
-// Only the line: it does not depend on how long that is.
+// Only the line: the time does not depend on the line's length.
 uint32_t source_line(struct source_set *set, span at);
 // A line, counted from 1, without its line end; after the last line: nothing, at the end of the text.
 span source_line_span(struct source_set *set, uint32_t source, uint32_t line);
 // The text of a span; the empty string for spans without text.
 str source_text(const struct source_set *set, span at);
-// From the beginning of `a` to the end of `b`; both of one source.
+// From the beginning of `a` to the end of `b`; both in one source.
 span span_join(span a, span b);
 bool span_is_none(span s);
 bool span_equal(span a, span b);

@@ -19,14 +19,14 @@
 #define DOOR_FLAGS (O_CLOEXEC | O_NOCTTY | O_NONBLOCK)
 #endif
 #ifdef O_PATH
-#define FOLDER_FLAGS (O_PATH | O_DIRECTORY | O_CLOEXEC) // one may be passed that may not be listed
+#define FOLDER_FLAGS (O_PATH | O_DIRECTORY | O_CLOEXEC) // a folder can be passed through without being listed
 #else
 #define FOLDER_FLAGS (O_RDONLY | O_DIRECTORY | O_CLOEXEC)
 #endif
 
 #ifdef __EMSCRIPTEN__
 
-// Node opens by path only, and waits for pipes.
+// Node opens by path only, and blocks on pipes.
 int door_open(const char *canonical, int flags) {
     struct stat info;
     if (lstat(canonical, &info) != 0)
@@ -52,7 +52,7 @@ static int open_again(int folder, const char *name, int flags) {
     return fd;
 }
 
-// One part of the path after the other, each in the folder that is open.
+// Opens one part of the path after another, each in the folder opened before.
 static int walk(const char *canonical, int flags) {
     int folder = open_again(AT_FDCWD, "/", FOLDER_FLAGS);
     const char *part = canonical + strspn(canonical, "/");
@@ -79,7 +79,7 @@ static int walk(const char *canonical, int flags) {
 }
 
 #ifdef __linux__
-// Of openat2(2), Linux 5.6, which the headers of older systems do not have.
+// For openat2(2), Linux 5.6, which older headers lack.
 struct how {
     uint64_t flags, mode, resolve;
 };

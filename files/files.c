@@ -19,7 +19,7 @@
 
 enum {
     SUGGEST_ENTRIES_MAX = 10000,
-    PIECE_BYTES = 4 << 20, // of a large file
+    PIECE_BYTES = 4 << 20, // how much of a large file is read at a time
     PIECES_MAX = 1024,
     MISSES_MAX = 256,
 };
@@ -60,7 +60,7 @@ bool path_is_below(str path, str folder, str *rest) {
     return str_starts_with(path, folder) && (path.len == folder.len || path.ptr[folder.len] == '/');
 }
 
-// NUL-terminated copy of a path, or NULL if it contains a NUL or is too long for the system.
+// A NUL-terminated copy of a path; NULL if it contains a NUL or is too long for the system.
 static const char *system_path(struct files *files, str path) {
     if (path.len == 0 || path.len >= PATH_MAX || memchr(path.ptr, '\0', path.len))
         return NULL;
@@ -86,14 +86,14 @@ str files_canonical(struct files *files, str path) {
     str resolved;
     if (resolve_links(files, path, &resolved))
         return resolved;
-    // A file that is not written yet has a folder already.
+    // A file that is not written yet already has a folder.
     str base = path_base(path);
     if (base.len && !str_equal(base, STR("..")) && resolve_links(files, path_folder(path), &resolved))
         return path_join(files->arena, resolved, base);
     return arena_copy(files->arena, path);
 }
 
-// The one that was added last: an editor's newest text counts.
+// The last one added: an editor's newest text counts.
 static const struct file_overlay *find_overlay(const struct files *files, str canonical) {
     for (uint32_t i = files->overlays.count; i > 0; i--)
         if (str_equal(files->overlays.items[i - 1].path, canonical))
@@ -272,8 +272,8 @@ static void log_read(struct files *files, str path, const struct stat *info) {
                                 (int64_t)info->st_mtim.tv_sec * 1000000000 + info->st_mtim.tv_nsec};
 }
 
-// Of a large file, which is read in pieces side by side: its memory is new, and its first touch takes as long
-// as the copying.
+// A large file is read in pieces in parallel: its memory is new, and touching it first takes as long as the
+// copying.
 struct pieces {
     int fd;
     char *data;
@@ -297,7 +297,7 @@ static void read_piece(void *context, size_t begin, size_t end) {
     p->got[begin / PIECE_BYTES] = at - begin;
 }
 
-// Returns how much of it there is before an end that came too early; -1: errno says why.
+// Returns how many bytes there are, fewer if the file ends early; -1: errno says why.
 static ssize_t read_pieces(int fd, char *data, size_t size) {
     struct pieces pieces = {.fd = fd, .data = data};
     size_t got = 0;
@@ -425,14 +425,14 @@ static int open_folder(struct files *files, str canonical) {
     return error ? -1 : door_folder(folder.ptr);
 }
 
-// As files_canonical, for a path whose last folders may not be there yet, either; empty: it cannot be told.
-// What looks as if nothing were there may be a link that leads nowhere: it is not followed when it is opened.
+// As files_canonical, also for a path whose last folders do not exist yet; empty: it cannot be determined.
+// What looks missing may be a link that leads nowhere: opening does not follow it.
 static str canonical_to_be(struct files *files, str path) {
     str resolved;
     const str base = path_base(path);
     if (resolve_links(files, path, &resolved))
         return resolved;
-    // Where '..' leads from a folder that is not there, nobody knows.
+    // '..' from a folder that does not exist leads to an unknown place.
     if (errno != ENOENT || !base.len || str_equal(base, STR("..")) || str_equal(base, STR(".")))
         return STR("");
     const str folder = canonical_to_be(files, path_folder(path));
@@ -511,7 +511,7 @@ str files_suggest(struct files *files, str path, const char *const *endings) {
         if (!has_ending(candidate, endings))
             continue;
         str stem = str_slice(candidate, 0, ending_of(candidate));
-        // A name without an ending has lost it.
+        // A name without an ending is taken to have lost it.
         bool same_ending =
             dot == name.len || nearest_distance(str_slice(name, dot, name.len),
                                                 str_slice(candidate, stem.len, candidate.len)) == 0;
@@ -519,13 +519,13 @@ str files_suggest(struct files *files, str path, const char *const *endings) {
         str offered = same_ending ? stem : candidate;
         unsigned before = search->best_distance;
         nearest_offer(search, offered);
-        // Folders have no order: of equally near names, the first by name.
+        // Folder entries have no order: of equally near names, take the first alphabetically.
         bool equal = before != UINT_MAX && nearest_distance(search->word, offered) == before;
         bool better = search->best_distance < before || (equal && str_compare(candidate, str_from(best)) < 0);
         if (!better || (!same_ending && stems.best.len))
             continue;
         snprintf(best, sizeof best, "%s", entry->d_name);
-        // The entry's memory is the directory's.
+        // The entry's memory belongs to the directory.
         search->best = str_from(best);
     }
     closedir(directory);

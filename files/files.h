@@ -1,11 +1,11 @@
 // The one door to the file system, for reading. What a file names may only be read below allowed folders
-// (roots), links followed, and only if it is a regular file; what is judged is what is opened (door.h). Files
-// are read whole into memory, never mapped.
+// (roots), links followed, and only if it is a regular file; the file that is checked is the one that is
+// opened (door.h). Files are read whole into memory, never mapped.
 //
 // Ownership: the caller owns `struct files`; contents go into the caller's arena. Paths go into the arena
 // given to `files_init`, which must be guarded while these functions run.
 // Thread safety: resolving and reading may run in several threads as long as none adds roots or
-// overlays; the log of reads is guarded by the caller reading files from one thread at a time.
+// overlays; for the log of reads, the caller must read files from one thread at a time.
 #ifndef GLINT_FILES_FILES_H
 #define GLINT_FILES_FILES_H
 
@@ -42,7 +42,7 @@ struct files {
     struct {
         str *items;
         uint32_t count, capacity;
-    } given; // files that the user named, links resolved: they may be read again
+    } given; // files that the user named, links resolved; may be read again
     struct {
         struct file_overlay *items;
         uint32_t count, capacity;
@@ -54,18 +54,18 @@ struct files {
     struct {
         str *items;
         uint32_t count, capacity;
-    } missed;         // paths where files_resolve looked and nothing was, links resolved: the first ones
+    } missed;         // the first paths where files_resolve found nothing, links resolved
     int system_error; // errno of the last FILE_UNREADABLE
 };
 
 void files_init(struct files *files, struct arena *arena);
 // The same folders and log in an arena of their own; their texts are shared.
 void files_copy(const struct files *from, struct arena *arena, struct files *out);
-// Whether all files of the log are as they were, and none of those that were missed is there.
+// Whether all files of the log are unchanged and none of the missed ones exists now.
 bool files_are_same(const struct files *files);
 // Makes `directory` an allowed folder. FILE_MISSING or FILE_NOT_REGULAR if it is not a folder.
 enum file_status files_add_root(struct files *files, str directory);
-// Text from memory in place of the file at `path` (which need not exist); copied. The newest one for a path
+// Text from memory in place of the file at `path` (which need not exist); copied. The newest text for a path
 // counts.
 void files_add_overlay(struct files *files, str path, str text);
 #define FILES_CONFIG_NAME ".glintrc.yaml"
@@ -84,28 +84,27 @@ str files_find_config(struct files *files, str scene_path);
 // for FILE_OUTSIDE *out is where it led. A path that exists but is outside is FILE_OUTSIDE; a device or pipe
 // there is FILE_NOT_REGULAR, since no root could allow it.
 enum file_status files_resolve(struct files *files, str base_path, str path, str *out);
-// Whether a file that was found in a folder, and that nobody named, may be read: links followed, it must be
+// Whether a file that was found in a folder without being named may be read: with links followed, it must be
 // below a root or below that `folder`. FILE_OUTSIDE if it is not.
 enum file_status files_confine(struct files *files, str path, str folder);
 // Reads a file below a root, or one that was given; others are FILE_OUTSIDE. A NUL byte follows the contents,
 // not counted. `cap_bytes` is checked before memory is taken.
 enum file_status files_read(struct files *files, str path, uint64_t cap_bytes, struct arena *into,
                             str *contents);
-// The same for one that files_confine allows.
+// The same for a file that files_confine allows.
 enum file_status files_read_found(struct files *files, str path, str folder, uint64_t cap_bytes,
                                   struct arena *into, str *contents);
-// The same for one that the user named, wherever it is.
+// The same for a file that the user named, wherever it is.
 enum file_status files_read_given(struct files *files, str path, uint64_t cap_bytes, struct arena *into,
                                   str *contents);
-// Whether a path, the last parts of which need not be there, is below a root, links followed: *root is that
-// one.
+// Whether a path, whose last parts need not exist, is below a root, links followed; *root is that root.
 enum file_status files_place(struct files *files, str path, str *root);
 struct output;
-// Opens an output that something other than the user named, below a root, in folders that are made if they
-// are not there. FILE_NOT_REGULAR: something other than a file has this name.
+// Opens an output that something other than the user named, below a root; missing folders are created.
+// FILE_NOT_REGULAR: something other than a file has this name.
 enum file_status files_write(struct files *files, str path, struct output *output);
-// Canonical path, size and time of a regular file (or overlay: its time is a hash of its text) without
-// reading it, for caches; is logged as a read.
+// For caches: the canonical path, size and time of a regular file (or overlay: its time is a hash of its
+// text) without reading it; logged as a read.
 enum file_status files_identify(struct files *files, str path, struct file_read *out);
 // The name in the folder of `path` that is nearest to its last part, for "did you mean", among those with one
 // of the endings (NULL at their end; NULL itself: any); the empty string if none is near or the folder is

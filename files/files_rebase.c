@@ -12,7 +12,7 @@ static str next_part(str *rest) {
     return part;
 }
 
-// From one folder to another, both absolute and without links: "", "a/", "../a/".
+// The relative path from one folder to another, both absolute and without links: "", "a/", "../a/".
 static str way(struct arena *arena, str from, str to) {
     str from_rest = str_slice(from, 1, from.len);
     str to_rest = str_slice(to, 1, to.len);

@@ -62,7 +62,7 @@ bool files_list_folder(struct arena *arena, str folder, struct files_names *name
     return listing.error == 0;
 }
 
-// What this user may not see is left out, and so are links that lead nowhere and what was removed meanwhile.
+// Left out: what this user may not see, links that lead nowhere, and what has been removed meanwhile.
 static bool is_left_out(void) {
     return errno == EACCES || errno == ENOENT || errno == ENOTDIR || errno == ELOOP;
 }

@@ -14,12 +14,12 @@ struct files_found {
         str *items;
         uint32_t count, capacity;
     } paths;        // sorted by their bytes, folder by folder
-    uint32_t depth; // folders that are open
-    str unreadable; // what FILE_UNREADABLE is about
+    uint32_t depth; // how many folders are open
+    str unreadable; // the path that FILE_UNREADABLE is about
 };
 
 bool files_is_folder(str path);
-// Whether there is a file, folder or link of this name, as far as the system lets it be known.
+// Whether there is a file, folder or link of this name, as far as the system tells.
 bool files_exist(str path);
 struct files_names {
     str *items;

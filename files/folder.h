@@ -1,7 +1,7 @@
 // The entries of a folder, read one by one.
 //
-// Ownership: closedir closes. Errors: errno; lack of memory is said as core/heap.h does, and not as a folder
-// that cannot be read. Thread safety: a folder belongs to one thread.
+// Ownership: closedir closes. Errors: errno; lack of memory is reported as core/heap.h does, not as an
+// unreadable folder. Thread safety: a folder belongs to one thread.
 #ifndef GLINT_FILES_FOLDER_H
 #define GLINT_FILES_FOLDER_H
 

@@ -31,7 +31,7 @@ static char *joined(const char *folder, const char *name) {
     return path;
 }
 
-// The folder and those above it.
+// Makes the folder and those above it.
 static bool make_folders(const char *path) {
     char *copy = heap_text(path);
     if (!copy)
@@ -83,7 +83,7 @@ void *folder_store_read(const struct folder_store *store, const char *name, size
     const int folder = is_usable(store) ? open(store->path, FOLDER_FLAGS) : -1;
     if (folder < 0)
         return NULL;
-    // What has the entry's name and is not a file, nobody here has written.
+    // Nothing here writes an entry that is not a regular file.
     int fd = openat(folder, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
     close(folder);
     if (fd < 0)
@@ -113,7 +113,7 @@ static int compare_entries(const void *a, const void *b) {
     return strcmp(x->name, y->name);
 }
 
-// All regular files of the folder; including leftovers of programs that were killed.
+// Lists all regular files of the folder, including leftovers of killed programs.
 static size_t list_entries(DIR *folder, struct entry **entries, uint64_t *total) {
     size_t count = 0;
     uint32_t capacity = 0;
@@ -227,7 +227,7 @@ bool folder_store_seal(const struct folder_store *store, const char *name, const
 char *folder_store_path(const char *name) {
     const char *cache = getenv("XDG_CACHE_HOME");
     const char *home = getenv("HOME");
-    if (sandbox_entered()) // what others have kept is not read for a stranger, nor what is made kept
+    if (sandbox_entered()) // an untrusted scene neither reads others' entries nor adds any
         return NULL;
     bool has_cache = cache && cache[0] == '/';
     if (!has_cache && (!home || home[0] != '/'))

@@ -10,7 +10,7 @@
 
 struct folder_store {
     const char *path;   // NULL or empty: there is no store; it need not exist yet
-    uint64_t cap_bytes; // of all entries
+    uint64_t cap_bytes; // limit on the total size of all entries
 };
 
 struct folder_store_part {
@@ -25,15 +25,15 @@ void *folder_store_read(const struct folder_store *store, const char *name, size
 bool folder_store_write(const struct folder_store *store, const char *name,
                         const struct folder_store_part *parts, int part_count);
 
-// What an entry is of, written before it with its length and a checksum: so that what is damaged, cut off, of
-// another version or of another thing is as if it were not there. An entry is read on the machine that wrote
-// it.
+// What an entry belongs to, written before it with its length and a checksum, so that an entry that is
+// damaged, truncated, of another version or of something else counts as missing. An entry is read on the
+// machine that wrote it.
 struct folder_seal {
     char magic[8];
     uint64_t version;
     uint64_t key[2];
 };
-// As folder_store_read and folder_store_write, for what follows the seal.
+// As folder_store_read and folder_store_write, for the data after the seal.
 void *folder_store_open(const struct folder_store *store, const char *name, const struct folder_seal *seal,
                         size_t most_bytes, size_t *count);
 bool folder_store_seal(const struct folder_store *store, const char *name, const struct folder_seal *seal,

@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NO_NAMES "git ended with status 1" // and without a word
+#define NO_NAMES "git ended with status 1" // ended so without a message
 
-// Of a repository that nobody trusts.
+// For an untrusted repository.
 static struct sandbox limits;
 static bool distrusts;
 
@@ -22,7 +22,7 @@ struct words {
 };
 
 void git_distrust(unsigned seconds, uint64_t memory_bytes) {
-    // The settings of the system may name programs, too; only GIT_ALLOW_PROTOCOL is above the repository's.
+    // The system's settings may name programs, too; only GIT_ALLOW_PROTOCOL overrides the repository's.
     static const char *const variables[][2] = {{"GIT_CONFIG_NOSYSTEM", "1"}, {"GIT_ATTR_NOSYSTEM", "1"},
                                                {"GIT_OPTIONAL_LOCKS", "0"},  {"GIT_ALLOW_PROTOCOL", "none"},
                                                {"GIT_NO_LAZY_FETCH", "1"},   {"GIT_TERMINAL_PROMPT", "0"}};
@@ -54,13 +54,13 @@ static void add_words(struct words *words, struct arena *arena, const char *cons
         *ARENA_PUSH(arena, words) = *more;
 }
 
-// Settings above the repository's, for all that it could name a program by.
+// Settings that override the repository's wherever these could name a program.
 static const char *const no_programs[] = {
     "--no-optional-locks", "-c", "core.fsmonitor=false",       "-c", "core.hooksPath=/dev/null", "-c",
     "diff.external=",      "-c", "diff.autoRefreshIndex=true", "-c", "submodule.recurse=false",  NULL};
 
-// Runs git in a folder; its output goes into the arena. false: changes->why. `settings`: before the question,
-// where nobody trusts the repository.
+// Runs git in a folder; its output goes into the arena. false: changes->why. `settings`: put before the
+// command if the repository is untrusted.
 static bool ask_with(struct git_changes *changes, struct arena *arena, str folder,
                      const struct words *settings, const char *const *question, str *out) {
     const char *const begin[] = {"git", "-C", arena_copy(arena, folder).ptr, NULL};
@@ -97,7 +97,7 @@ static bool ask(struct git_changes *changes, struct arena *arena, str folder, co
     return ask_with(changes, arena, folder, NULL, question, out);
 }
 
-// What a list has, each of which a zero byte ends; false: it has no more.
+// The next item of a list whose items end with a zero byte; false: there is none.
 static bool next_of(str list, size_t *at, str *item) {
     while (*at < list.len && list.ptr[*at] == '\0')
         ++*at;
@@ -114,9 +114,9 @@ static void take_paths(struct git_changes *changes, struct arena *arena, str lis
         *ARENA_PUSH(arena, &changes->paths) = path_join(arena, changes->top, path);
 }
 
-// ---- a repository that nobody trusts
+// ---- an untrusted repository
 
-// Settings without which no filter is a program: git hashes files as they are.
+// Settings that turn off filter programs: git hashes files as they are.
 static bool add_no_filters(struct git_changes *changes, struct arena *arena, struct words *settings) {
     static const char *const list[] = {"config", "-z", "--name-only", "--get-regexp", "^filter\\.", NULL};
     static const char *const off[] = {"clean=", "smudge=", "process=", "required=false", NULL};
@@ -143,7 +143,7 @@ static bool add_no_filters(struct git_changes *changes, struct arena *arena, str
     return true;
 }
 
-// Settings of a repository may say that its files are elsewhere: in the home folder of who checks it.
+// A repository's settings may say that its files are elsewhere: in the home folder of whoever checks it.
 static bool judge_top(struct git_changes *changes, struct arena *arena) {
     struct files files;
     if (getenv("GIT_DIR") || getenv("GIT_WORK_TREE"))
@@ -170,7 +170,7 @@ static void take_submodules(struct git_changes *changes, struct arena *arena, st
     }
 }
 
-// What is asked of any repository beforehand.
+// Questions asked of any repository beforehand.
 static bool prepare(struct git_changes *changes, struct arena *arena, struct words *settings) {
     static const char *const staged[] = {"ls-files", "-z", "--stage", NULL};
     str list;

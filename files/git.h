@@ -14,13 +14,13 @@ struct git_changes {
         str *items;
         uint32_t count, capacity;
     } paths; // absolute; deleted files, both names of renamed ones, and files that git does not track yet too
-    str why; // where it failed
+    str why; // why it failed
 };
 
-// From now on nobody trusts the repository: git starts no program that its settings or attributes name (a
-// monitor, a hook, a filter, a difference of its own, another transport), writes nothing, and is held to so
-// much time and memory. What git cannot say without them counts as changed: what a filter of the repository
-// would have told to be the same, and submodules.
+// From now on the repository is untrusted: git starts no program that its settings or attributes name (a
+// monitor, a hook, a filter, a diff program of its own, another transport), writes nothing, and gets only so
+// much time and memory. What git cannot compare without them counts as changed: submodules, and files that
+// only a filter of the repository would show to be the same.
 void git_distrust(unsigned seconds, uint64_t memory_bytes);
 // All that differs between the commit that `revision` names and the files as they are now. HEAD of a
 // repository without a commit is empty. false: changes->why.

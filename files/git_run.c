@@ -62,7 +62,7 @@ void git_run(struct git_answer *answer, const char *const *words, const struct s
         return;
     }
     for (int i = 0; i < 2; i++) {
-        // What git's own children inherit must not keep the ends open that are read here.
+        // Descriptors that git's own children inherit must not keep open the ends that are read here.
         fcntl(out[i], F_SETFD, FD_CLOEXEC);
         fcntl(err[i], F_SETFD, FD_CLOEXEC);
     }

@@ -1,5 +1,5 @@
-// Runs git and takes what it says. Private to files; a module of WebAssembly, which cannot start a program,
-// has JavaScript do so (web/system.c).
+// Runs git and captures its output. Private to files; a WebAssembly module cannot start a program and has
+// JavaScript do so (web/system.c).
 #ifndef GLINT_FILES_GIT_RUN_H
 #define GLINT_FILES_GIT_RUN_H
 
@@ -11,14 +11,14 @@ enum {
 };
 
 struct git_answer {
-    struct strbuf text[2]; // standard output and error, of the caller, who frees them
-    int error;             // errno of what kept git from running; 0: it ran
-    int status;            // its own
+    struct strbuf text[2]; // standard output and error; the caller frees them
+    int error;             // errno if git could not run; 0: it ran
+    int status;            // its exit status
 };
 
 struct sandbox;
 // `words`, the first of which is "git", end with NULL. `limits`: it may only read (sandbox_only_read), as far
-// as the system can see to it; NULL: it may what this program may.
+// as the system can enforce that; NULL: it has this program's rights.
 void git_run(struct git_answer *answer, const char *const *words, const struct sandbox *limits);
 
 #endif

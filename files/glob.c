@@ -3,11 +3,11 @@
 #include <string.h>
 
 enum {
-    PATTERN_MAX = 1024 // bytes; a longer one matches nothing
+    PATTERN_MAX = 1024 // bytes; a longer pattern matches nothing
 };
 
-// All places in the pattern that the path read so far may have reached, so that the time is the product of
-// both lengths whatever the pattern.
+// All places in the pattern that the part of the path read so far may have reached. So the time is at most
+// the product of both lengths, whatever the pattern.
 struct places {
     str pattern;
     bool here[PATTERN_MAX + 1];
@@ -17,7 +17,7 @@ static bool at_double(str pattern, size_t i) {
     return i + 1 < pattern.len && pattern.ptr[i] == '*' && pattern.ptr[i + 1] == '*';
 }
 
-// Stars may stand for nothing; "**/" for no folder, where a name begins.
+// Stars may match nothing; "**/" matches no folder at the start of a name.
 static void skip_stars(struct places *p, bool name_begins) {
     for (size_t i = 0; i < p->pattern.len; i++) {
         if (!p->here[i] || p->pattern.ptr[i] != '*')

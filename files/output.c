@@ -13,10 +13,10 @@
 
 enum {
     TEMPORARY_NAMES = 10000,
-    LINKS_MAX = 40, // as many as Linux follows
+    LINKS_MAX = 40, // as many links as Linux follows
 };
 
-// Lack of memory in a system call is lack of memory.
+// A system call that lacks memory is treated like a failed allocation.
 static bool fail(struct output *output) {
     if (errno == ENOMEM)
         heap_exhausted(0);
@@ -47,7 +47,7 @@ int output_descriptor(int fd, const void *bytes, size_t count) {
     return 0;
 }
 
-// The system closes the descriptor of a close that is interrupted, too.
+// An interrupted close still closes the descriptor.
 static bool close_once(int fd) {
     return close(fd) == 0 || errno == EINTR;
 }
@@ -67,7 +67,7 @@ static void release(struct output *output) {
     output->fd = -1;
 }
 
-// Owner and permissions of the file that is replaced, as far as the system allows.
+// Copies owner and permissions of the replaced file, as far as the system allows.
 static void take_mode(int fd, const struct stat *old) {
     struct stat now;
     bool other = fstat(fd, &now) == 0 && (now.st_uid != old->st_uid || now.st_gid != old->st_gid);
@@ -78,7 +78,7 @@ static void take_mode(int fd, const struct stat *old) {
         errno = 0;
 }
 
-// How a path is named in the output's folder.
+// A path's name within the output's folder.
 static const char *named(const struct output *output, const char *path) {
     const char *slash = output->folder == AT_FDCWD ? NULL : strrchr(path, '/');
     return slash ? slash + 1 : path;
@@ -149,7 +149,7 @@ static void open_target(struct output *output) {
         errno = EISDIR;
         fail(output);
     } else if (exists && !S_ISREG(info.st_mode)) {
-        // A pipe that nobody reads is waited for: a signal ends that.
+        // Opening a pipe that nobody reads blocks; a signal ends that.
         output->fd = open(output->path, O_WRONLY | O_CLOEXEC);
         if (output->fd < 0)
             fail(output);
@@ -238,7 +238,7 @@ void output_move(struct output *output, uint64_t place) {
         fail(output);
 }
 
-// On the disk, and not in the system's memory alone. Some file systems cannot.
+// Waits until the file is on disk, not only in the system's memory. Some file systems cannot do that.
 static bool settle(int fd) {
     int result;
     do

@@ -70,7 +70,7 @@ int sandbox_landlock(void) {
     return version > 0 ? (int)version : 0;
 }
 
-// All that a version knows to refuse: to run a program, above all.
+// All accesses that a version can refuse, above all running a program.
 static struct ruleset all_of(int version) {
     const int files = version >= 5 ? 16 : version >= 3 ? 15 : version >= 2 ? 14 : 13;
     return (struct ruleset){((uint64_t)1 << files) - 1, version >= 4 ? 3 : 0, version >= 6 ? 3 : 0};
@@ -109,7 +109,7 @@ static int enclose(const struct sandbox *sandbox, int version, struct ruleset al
     return error;
 }
 
-// What the process has already counts: a sanitizer's own tables, for one.
+// Memory that the process already has counts too: a sanitizer's own tables, for example.
 static uint64_t memory_now(void) {
     unsigned long pages = 0;
     char text[256] = "";
@@ -129,7 +129,7 @@ static void cap(const struct sandbox *sandbox) {
     setrlimit(RLIMIT_CPU, &time);
     if ((rlim_t)bytes == bytes)
         setrlimit(RLIMIT_DATA, &memory);
-    setrlimit(RLIMIT_CORE, &files); // it would hold what was read
+    setrlimit(RLIMIT_CORE, &files); // a core dump would contain what was read
 }
 
 int sandbox_enter(const struct sandbox *sandbox) {
@@ -143,7 +143,7 @@ int sandbox_enter(const struct sandbox *sandbox) {
 
 // ---- another program
 
-// seccomp(2) for what these processors call their processes; others have no filter.
+// seccomp(2) with these processors' system call numbers; others have no filter.
 #if defined __x86_64__ && !defined __ILP32__
 #define ARCHITECTURE AUDIT_ARCH_X86_64
 #elif defined __i386__
@@ -156,14 +156,15 @@ int sandbox_enter(const struct sandbox *sandbox) {
 
 #ifdef ARCHITECTURE
 enum {
-    CALL_CLONE3 = 435,         // on all processors, and unknown to older headers
+    CALL_CLONE3 = 435,         // the same on all processors; missing in older headers
     OTHER_CALLS = 0x40000000u, // x86-64 has a second set of numbers from here on
 };
 #define REFUSE(error)  BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | (error))
 #define LOAD(field)    BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, field))
 #define UNLESS(number) BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, (number), 0, 1)
 
-// Threads, but no process. What a filter cannot look into (clone3) is said to be unknown, and done by clone.
+// Threads, but no processes. A filter cannot inspect clone3's arguments: it is reported as unknown, so clone
+// is used.
 static void forbid_processes(void) {
     struct sock_filter rules[] = {
         LOAD(arch),

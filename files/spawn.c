@@ -59,7 +59,7 @@ int spawn(pid_t *child, const char *const *words, const struct spawn_streams *st
     return error;
 }
 
-// The child of a fork, to its end: another program, or none, and why.
+// The forked child, to its end: it becomes another program, or says why it did not.
 static void become(const char *const *words, const struct spawn_streams *streams,
                    const struct sandbox *limits, int tell) {
     const int from[] = {streams->in, streams->out, streams->err};
@@ -94,7 +94,7 @@ int spawn_reader(pid_t *child, const char *const *words, const struct spawn_stre
         error = errno;
     close(ends[1]);
     ssize_t count = 0;
-    // Nothing comes where the child has become the program.
+    // Nothing arrives if the child has become the program.
     do
         count = made < 0 ? 0 : read(ends[0], &error, sizeof error);
     while (count < 0 && errno == EINTR);

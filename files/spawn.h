@@ -13,9 +13,10 @@ struct spawn_streams {
 };
 
 // `words`, the first of which is the program's name, end with NULL. `own_group`: Ctrl-C does not reach it.
-// Returns 0, or errno; *child, the caller's to wait for, is 0 then.
+// Returns 0, or errno with *child 0. The caller waits for *child.
 int spawn(pid_t *child, const char *const *words, const struct spawn_streams *streams, bool own_group);
-// The same for a program that is to read only (sandbox.h: sandbox_only_read). While one thread runs.
+// The same for a program that may only read (sandbox.h: sandbox_only_read). Call it while only one thread
+// runs.
 int spawn_reader(pid_t *child, const char *const *words, const struct spawn_streams *streams,
                  const struct sandbox *limits);
 

@@ -45,7 +45,7 @@ bool spool_read(struct spool *spool, const char *path) {
     return open_as(spool, path, O_RDONLY);
 }
 
-// Its name is made of another's: nobody has looked whether a link has it.
+// Its name is derived from another's: nobody has checked whether it is a link.
 bool spool_create(struct spool *spool, const char *path, const void *head, size_t count) {
     struct output output = {.error = ENOMEM};
     const char *slash = strrchr(path, '/');

@@ -24,7 +24,7 @@ int stream_read(int fd, size_t cap_bytes, struct strbuf *text) {
 int stream_read_file(const char *path, size_t most_bytes, struct strbuf *bytes) {
     char block[BLOCK_BYTES];
     struct stat info;
-    const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); // a pipe in its place is not waited for
+    const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); // does not wait if it is a pipe
     ssize_t count;
     if (fd < 0)
         return errno;

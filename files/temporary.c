@@ -70,7 +70,7 @@ void temporary_forget(struct temporary *entry) {
     unlock();
 }
 
-// As the system writes it (getdents64(2)).
+// The system's layout (getdents64(2)).
 struct listed {
     uint64_t inode;
     int64_t offset;
@@ -82,7 +82,7 @@ struct listed {
 static bool remove_at(int folder, const char *name, int depth);
 
 #ifdef __EMSCRIPTEN__
-// No such call there, and no end of memory to work around.
+// That system has no such call, and no lack of memory to work around.
 static long read_list(int folder, void *list, size_t bytes) {
     return getdents(folder, list, bytes);
 }
@@ -92,7 +92,7 @@ static long read_list(int folder, void *list, size_t bytes) {
 }
 #endif
 
-// Removes what one reading of the list shows. true: something was there, and is gone.
+// Removes the entries that one reading of the list shows. true: something was removed.
 static bool empty(int folder, int depth) {
     _Alignas(struct listed) char list[LIST_BYTES];
     bool removed = false;
@@ -106,7 +106,8 @@ static bool empty(int folder, int depth) {
     return removed;
 }
 
-// What is removed moves the rest of the folder's list: it is opened and read again until nothing more goes.
+// Removing entries shifts the rest of the folder's list: it is opened and read again until nothing more can
+// be removed.
 static bool remove_at(int folder, const char *name, int depth) {
     if (unlinkat(folder, name, 0) == 0)
         return true;
@@ -133,5 +134,5 @@ void temporary_remove_all(void) {
     lock();
     for (const struct temporary *entry = noted; entry; entry = entry->next)
         temporary_remove(entry->path);
-    noted = NULL; // and the lock stays held: another thread makes none until the process ends
+    noted = NULL; // and the lock stays held, so no other thread makes one until the process ends
 }

@@ -17,15 +17,15 @@ struct temporary {
 
 void temporary_note(struct temporary *entry, const char *path);
 // Makes a new file for writing and notes it, in one step for a thread that ends the process. -1: errno says
-// why; nothing is noted. It is the `name` in the open folder (AT_FDCWD: a path of its own), which `path` says
-// too.
+// why; nothing is noted. The file is `name` in the open folder (AT_FDCWD: `name` is a path); `path` is its
+// whole path.
 int temporary_create(struct temporary *entry, int folder, const char *name, const char *path);
 // Does nothing for an entry that is not noted.
 void temporary_forget(struct temporary *entry);
 // Removes a file, or a folder with all that is in it; links are removed, not followed. false: errno says why
 // something is left.
 bool temporary_remove(const char *path);
-// Before the process ends: afterwards threads that note or create one wait for ever.
+// Call it before the process ends: afterwards, threads that note or create an entry wait forever.
 void temporary_remove_all(void);
 
 #endif

@@ -33,7 +33,7 @@ struct watch {
     int *folders; // descriptors of what inotify watches
     uint32_t folder_count, folder_capacity;
     int notify;    // inotify; -1: none
-    double looked; // clock: by watch_look; 0: not since watch_begin
+    double looked; // clock at the last watch_look; 0: none since watch_begin
 };
 
 // ---- inotify
@@ -77,7 +77,7 @@ static bool to_folder(char path[PATH_MAX]) {
     return true;
 }
 
-// The folder of a file, or, where that is not there, the nearest above it: there it would appear.
+// The folder of a file or, if that does not exist, the nearest existing one above it, where it would appear.
 static int watch_folder_of(int notify, const char *path) {
     char folder[PATH_MAX];
     if (strlen(path) >= sizeof folder)
@@ -96,7 +96,7 @@ static bool knows_folder(const struct watch *watch, int folder) {
     return false;
 }
 
-// One that cannot be watched, or noted, is looked at by watch_wait from time to time.
+// A folder that cannot be watched or noted is checked by watch_wait from time to time.
 static void add_folder(struct watch *watch, const char *path) {
     const int folder = watch->notify >= 0 ? watch_folder_of(watch->notify, path) : -1;
     if (folder < 0 || knows_folder(watch, folder))
@@ -207,14 +207,14 @@ bool watch_differs(const struct watch *watch) {
     return false;
 }
 
-// What the events say does not matter: the files are looked at.
+// The contents of the events do not matter: the files are checked.
 static void drain(const struct watch *watch) {
     char events[EVENT_BYTES];
     while (read(watch->notify, events, sizeof events) > 0)
         continue;
 }
 
-// Until something may have changed, or time is over. false: a signal came.
+// Waits until something may have changed or the time is up. false: a signal came.
 static bool wait_for_events(const struct watch *watch, double seconds) {
     struct pollfd poll_one = {.fd = watch->notify, .events = POLLIN};
     const int milliseconds = (int)(1e3 * seconds + 0.999);

@@ -5,11 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Nobody else can put a `.git` above a scene (where everybody may write, say), and so let it read what is
-// around it.
+// Otherwise someone else could put a `.git` above a scene (where everybody may write, say) and so let the
+// scene read the files around it.
 static bool is_own(const struct stat *info) {
 #ifdef __EMSCRIPTEN__
-    (void)info; // there are no users
+    (void)info; // this system has no users
     return true;
 #else
     const char *caller = geteuid() == 0 ? getenv("SUDO_UID") : NULL;
@@ -51,8 +51,7 @@ str files_work_tree(struct files *files, str path) {
     return folder.len && folder.ptr[0] == '/' ? folder : STR("");
 }
 
-// The folder that "../lib/a.obj" leaves no higher than it says: what is left of the target without
-// "lib/a.obj".
+// The highest folder that "../lib/a.obj" climbs to: the target without "lib/a.obj".
 static str common_folder(struct files *files, str root, str path, str target) {
     str rest;
     const size_t written = path.len;

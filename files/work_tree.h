@@ -1,4 +1,4 @@
-// Where a scene's files may be if no settings say it: in the git work tree around it.
+// Where a scene's files may be if no settings say so: in the git work tree around it.
 //
 // Ownership: paths go into the arena of `files`, which must be guarded. Thread safety: as files.h.
 #ifndef GLINT_FILES_WORK_TREE_H
@@ -16,13 +16,12 @@ struct files_marker {
     str path; // of the settings to create; empty: none would help, or none should be there
     bool is_certain;
 };
-// What to do where a scene names a file outside its root (FILE_OUTSIDE): `path` as it is written, `target`
-// where it led. Where there are neither settings nor a work tree, settings in the folder that holds both
-// would allow it: *marker. That folder never is the whole file system or the home folder, nor one that only a
-// link leads to. It is certain where it is the current folder or below it: who runs glint there is at work on
-// it.
+// What to do where a scene names a file outside its root (FILE_OUTSIDE): `path` as written, `target` where it
+// led. Where there are neither settings nor a work tree, settings in the folder that holds both would allow
+// it: *marker. That folder never is the whole file system or the home folder, nor one that only a link leads
+// to. It is certain if it is the current folder or below it: whoever runs glint there is working on it.
 str files_outside_advice(struct files *files, str path, str target, struct files_marker *marker);
-// What they hold.
+// The contents of those settings.
 #define FILES_MARKER_TEXT "# The scenes below this folder may read the files in it.\n"
 
 #endif

@@ -110,7 +110,7 @@ struct ir_camera {
     double fov;          // vertical, degrees
     unsigned projection; // ir_projection
     double size;         // of the orthographic view: its height in scene units
-    double aperture;     // diameter of the lens; 0: a pinhole
+    double aperture;     // lens diameter; 0: a pinhole
     unsigned focusing;   // ir_focus
     double focus;        // 0: not written
     vec3 focus_at;
@@ -147,12 +147,12 @@ struct ir_light {
     unsigned kind; // ir_light_kind
     vec3 position, direction;
     struct ir_panel rectangle;
-    double radius; // of one with a position; 0: a point
-    double angle;  // of one with a direction: degrees that its disc measures across; 0: a point
+    double radius; // for one with a position; 0: a point
+    double angle;  // for one with a direction: diameter of its disc in degrees; 0: a point
     double intensity;
     struct ir_color color;
     unsigned falloff; // ir_falloff
-    bool visible;     // of a light with extent: to camera, mirrors and glass
+    bool visible;     // for a light with extent: whether camera, mirrors and glass see it
 };
 
 struct ir_checker {
@@ -272,7 +272,7 @@ struct ir_animation {
     struct ir_head head;
     int32_t frames;
     double rate;   // frames per second
-    int32_t frame; // that the scene shows, where it is written; else it shows its values as they are
+    int32_t frame; // the frame that the scene shows, if written; else it shows its values as they are
     struct ir_tracks tracks;
 };
 

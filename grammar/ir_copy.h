@@ -1,7 +1,7 @@
-// A copy of a scene and of where it is in its files, to be changed while the first one stays.
+// A copy of a scene and of its places in its files, to be changed while the original stays.
 //
 // Lists are the copy's own, at every level; texts are shared. Ownership: the arena, which must be guarded;
-// texts belong to the first one, which must outlive the copy. Thread safety: pure functions.
+// texts belong to the original, which must outlive the copy. Thread safety: pure functions.
 #ifndef GLINT_GRAMMAR_IR_COPY_H
 #define GLINT_GRAMMAR_IR_COPY_H
 

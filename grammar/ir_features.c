@@ -22,7 +22,7 @@ struct feature_use {
     const struct schema_element *schema;
     const void *element;
     uint32_t row;
-    const char *component; // of weights; else NULL
+    const char *component; // for weights; else NULL
     double weight;
 };
 
@@ -44,7 +44,7 @@ static span place_of(const struct feature_walk *w, const struct feature_use *use
     return found ? found->value : ir_place_label(w->origin, ir_walk_head(use->element));
 }
 
-// The name that the file gave the element, by its key or its row of that text kind.
+// The name that the file gave the element: its key, or its row of the name text kind.
 static str name_of(const struct schema_element *schema, const void *element) {
     for (uint32_t i = 0; i < schema->row_count; i++)
         if (schema->rows[i].kind == SCHEMA_TEXT && schema->rows[i].text == SCHEMA_TEXT_NAME)
@@ -93,7 +93,7 @@ static void switch_on(struct feature_walk *w, uint64_t bit, const struct feature
     explain_use(w, use, reason);
 }
 
-// Another grey than that which it has by default: white or black.
+// A grey other than its default: white or black.
 static bool is_coloured(const struct schema_row *row, const struct ir_color *color) {
     const bool black = row->standard && row->standard[0] == '0';
     const double grey = black ? 0 : 1;
@@ -105,7 +105,7 @@ static bool is_coloured(const struct schema_row *row, const struct ir_color *col
 static bool is_on(const struct schema_row *row, const void *element) {
     const void *field = schema_field_const(row, element);
     if (row->choice)
-        return true; // it is the one taken
+        return true; // this row is the one taken
     switch (row->kind) {
     case SCHEMA_BOOLEAN:
         return *(const bool *)field;
@@ -141,7 +141,7 @@ static void walk_reference(struct feature_walk *w, const struct schema_row *row,
     const void *referent = ir_walk_referent(w->scene, row, field);
     struct ir_material standard = {0};
     if (!referent) {
-        if (w->standard == row->child) // its defaults have switched on what they do
+        if (w->standard == row->child) // its defaults have already switched on their features
             return;
         w->standard = row->child;
         assert(row->child->size <= sizeof standard);

@@ -1,9 +1,9 @@
-// What a scene asks of the tracer: the OR over the feature columns of the rows that it uses.
+// The features that a scene needs from the tracer: the OR over the feature columns of the rows that it uses.
 //
 // A row's bit is on while its value is not zero, false, the first word or empty; a row of a choice while
 // it is the one taken; a component of weights while it is not 0. Materials count if a body or a
 // material_map uses them; a body without one has the default material. Scenes without a light have one at
-// the camera. The materials that meshes bring along, and what the renderer needs for itself (slices,
+// the camera. Features of materials that meshes bring along, and those the renderer itself needs (slices,
 // counters), are added by the code that knows them.
 // Thread safety: pure functions.
 #ifndef GLINT_GRAMMAR_IR_FEATURES_H
@@ -39,7 +39,7 @@ uint64_t ir_features(const struct ir_scene *scene);
 void ir_features_explain(const struct ir_scene *scene, const struct ir_origin *origin,
                          struct ir_feature_reasons *out);
 
-// The bits of only one material (NULL: the default material), for those that meshes bring along.
+// The bits of a single material (NULL: the default material), for materials that meshes bring along.
 uint64_t ir_material_features(const struct ir_material *material);
 
 // "refraction"; "unknown" for anything but a single FEATURE_ bit.

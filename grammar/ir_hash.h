@@ -1,8 +1,7 @@
-// The hash of all that an element of the IR means: every row of the table, children, lists and choices
+// A hash of everything that an element of the IR means: every row of the table, children, lists and choices
 // included.
 //
-// Not in it: where something is in a file, and whether it was written or is a default. Thread safety:
-// pure.
+// It ignores where something is in a file, and whether it was written or is a default. Thread safety: pure.
 #ifndef GLINT_GRAMMAR_IR_HASH_H
 #define GLINT_GRAMMAR_IR_HASH_H
 

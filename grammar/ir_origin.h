@@ -1,5 +1,5 @@
-// Where each part of the IR is in the files: beside the IR, never in it. Equality, dump and diff of
-// meaning ignore it.
+// Where each part of the IR is in the files, kept outside the IR. Equality, dump and diff of meaning ignore
+// it.
 //
 // For each element its span; for each row that the file gave, the spans of key and value and of the
 // comments before it; for each file its schema line and its own list of includes (for `convert`).
@@ -60,14 +60,14 @@ struct ir_origin {
     struct {
         int32_t frames; // 0: nothing moves
         double rate;
-        unsigned inexact; // of its expressions: core/expression.h
-    } motion;             // what the animation said, also once a frame was taken
+        unsigned inexact; // inexact parts of its expressions: core/expression.h
+    } motion;             // the animation's settings, kept after a frame is taken
 };
 
 void ir_origin_init(struct ir_origin *origin, struct arena *arena);
 // A new element; returns the id for ir_head.origin.
 uint32_t ir_origin_add(struct ir_origin *origin, struct ir_element_origin element);
-// The row's places are kept in the order of the calls; a row that is added again replaces its places.
+// Adds the row's places, kept in the order of the calls; adding a row again replaces its places.
 void ir_origin_add_row(struct ir_origin *origin, uint32_t element, struct ir_row_origin row);
 // Forgets the row's places, if it has any.
 void ir_origin_remove_row(struct ir_origin *origin, uint32_t element, uint32_t row);
@@ -75,7 +75,8 @@ void ir_origin_remove_row(struct ir_origin *origin, uint32_t element, uint32_t r
 // NULL if the row has no place. Valid until something is added.
 const struct ir_row_origin *ir_origin_row(const struct ir_origin *origin, const struct ir_head *head,
                                           uint32_t row);
-// The span to show for a row: its value, else the element's label. `row_name` must exist in the schema.
+// The span to show for a row: its value if it has a place, else the element's label. `row_name` must exist in
+// the schema.
 span ir_place_value(const struct ir_origin *origin, const struct ir_head *head,
                     const struct schema_element *schema, const char *row_name);
 span ir_place_key(const struct ir_origin *origin, const struct ir_head *head,

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// Words that some version of YAML reads as a boolean or as null, in any case.
+// Words that some version of YAML reads as a boolean or as null; letter case does not matter.
 static bool is_reserved(str text) {
     static const char *const words[] = {"y",    "n",     "yes",  "no",  "on",  "off",
                                         "true", "false", "null", "nan", "inf", NULL};
@@ -18,7 +18,7 @@ static bool is_reserved(str text) {
     return false;
 }
 
-// Above ASCII: what YAML forbids or folds, or what is invisible.
+// Characters above ASCII that YAML forbids or folds, or that are invisible.
 static bool is_odd(uint32_t c) {
     return c < 0x20 || (c >= 0x7F && c <= 0xA0) || c == 0xAD || (c >= 0x200B && c <= 0x200F) ||
            (c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) || (c >= 0xE000 && c <= 0xF8FF) ||

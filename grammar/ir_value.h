@@ -1,5 +1,5 @@
 // What every element of the IR is made of: its head, and the values that are structs. Code that walks the
-// table and knows no element's name includes this and not ir.h, and is not rebuilt for a new attribute.
+// table and knows no element's name includes this instead of ir.h, and so is not rebuilt for a new attribute.
 #ifndef GLINT_GRAMMAR_IR_VALUE_H
 #define GLINT_GRAMMAR_IR_VALUE_H
 

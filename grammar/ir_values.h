@@ -1,5 +1,5 @@
 // Text of one to four values, SCHEMA_TEXT_VALUES: "30", "0, 1, 6", "#c08050", "4*cos(tau*time), 1, 0". Commas
-// inside parentheses are of an expression.
+// inside parentheses belong to an expression.
 //
 // Thread safety: pure except for `out`.
 #ifndef GLINT_GRAMMAR_IR_VALUES_H
@@ -14,11 +14,11 @@ enum {
     IR_VALUES_MOST = 4
 };
 
-// The first value of *rest, without spaces around it, which is taken off. false: nothing is left. An empty
-// value between commas is one.
+// Takes the first value off *rest, without the spaces around it. false: nothing is left. An empty value
+// between commas counts as a value.
 bool ir_values_next(str *rest, str *value);
 uint32_t ir_values_count(str text);
-// Appends the text as it is kept: numbers in their shortest form, ", " between values.
+// Appends the text in its stored form: numbers in their shortest form, ", " between values.
 void ir_values_normal(struct strbuf *out, str text);
 // One value as it is, several as a list in brackets, for YAML's flow style and for JSON.
 void ir_values_yaml(struct strbuf *out, str text);

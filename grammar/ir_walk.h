@@ -23,7 +23,7 @@ struct ir_any_list ir_walk_list(const struct schema_row *row, const void *elemen
 void *ir_walk_item(const struct schema_row *row, struct ir_any_list list, uint32_t i);
 // Appends a copy of `item` to the list; returns its index. May move the list.
 uint32_t ir_walk_append(struct arena *arena, const struct schema_row *row, void *element, const void *item);
-// Whether an item of a list has no name: then it is written where it is used, not in the list.
+// Whether a list item has no name: it is then written where it is used, not in the list.
 bool ir_walk_is_anonymous(const struct schema_element *schema, const void *item);
 
 // The text of the element's key row (a name); empty if it has none.
@@ -33,11 +33,11 @@ const struct schema_row *ir_walk_pool(const struct schema_element *target);
 // What a SCHEMA_REFERENCE row refers to: NULL if nothing was written or found.
 const void *ir_walk_referent(const struct ir_scene *scene, const struct schema_row *row,
                              const struct ir_material_ref *reference);
-// Whether it is a body written in place, and not a name.
+// Whether the reference is a body written in place, not a name.
 bool ir_walk_is_inline(const struct ir_scene *scene, const struct schema_row *row,
                        const struct ir_material_ref *reference);
 
-// Whether the file gave row `i`. Lists: whether they have an item to show. Keys: whether there is one.
+// Whether the file gave row `i`. Lists: whether they have an item to show. Keys: whether there is a key.
 bool ir_walk_written(const struct schema_element *schema, uint32_t i, const void *element);
 // Whether a row of a choice is the one that the element's tag names; true for rows outside choices.
 bool ir_walk_taken(const struct schema_element *schema, const struct schema_row *row, const void *element);
@@ -47,12 +47,12 @@ int ir_walk_short(const struct ir_scene *scene, const struct schema_element *sch
 // The components of a vector, colour or weights; returns their number, 0 for other kinds.
 uint32_t ir_walk_components(const struct schema_row *row, const void *field, double out[4]);
 
-// Calls `visit` for each path of a file that the scene holds, and may change it.
+// Calls `visit`, which may change it, for each file path in the scene.
 typedef void ir_walk_visit_path(void *context, const struct schema_element *schema, void *element,
                                 const struct schema_row *row, str *path);
 void ir_walk_paths(struct ir_scene *scene, ir_walk_visit_path *visit, void *context);
 
-// Calls `visit` for each reference that the scene holds, found or not.
+// Calls `visit` for each reference in the scene, found or not.
 typedef void ir_walk_visit_reference(void *context, const struct schema_row *row,
                                      const struct ir_material_ref *reference);
 void ir_walk_references(const struct ir_scene *scene, ir_walk_visit_reference *visit, void *context);

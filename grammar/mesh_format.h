@@ -12,17 +12,17 @@ enum mesh_format_id {
 #define MESH_FORMAT(id, ...) MESH_FORMAT_##id,
 #include "grammar/mesh_formats.def"
 #undef MESH_FORMAT
-    MESH_FORMAT_COUNT // also: none of them
+    MESH_FORMAT_COUNT // also: no format
 };
 
-// What a file of the format can say besides positions and faces, and how its programs put bodies.
+// What a file of the format can contain besides positions and faces, and how its programs orient bodies.
 enum mesh_traits {
     MESH_HOLDS_NORMALS = 1,     // of corners
     MESH_HOLDS_COORDINATES = 2, // of textures
     MESH_HOLDS_MATERIALS = 4,   // by itself, or in files that it names
     MESH_HOLDS_PARTS = 8,       // with names, so that 'material_map' can give each its material
     MESH_Z_UP = 16,             // the third axis points upwards; else the second
-    MESH_HOLDS_BODIES = 32,     // of which 'part' chooses one
+    MESH_HOLDS_BODIES = 32,     // several bodies, of which 'part' chooses one
 };
 
 struct mesh_format {
@@ -41,7 +41,7 @@ extern const char *const mesh_format_endings[];
 enum mesh_format_id mesh_format_of_path(str path);
 // By how a file begins.
 enum mesh_format_id mesh_format_of_text(str text);
-// All of them: "Wavefront OBJ (.obj)", with commas and an "or" where they are several.
+// All formats: "Wavefront OBJ (.obj)", with commas and an "or" between several.
 str mesh_format_words(struct arena *arena);
 
 #endif

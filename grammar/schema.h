@@ -36,10 +36,10 @@ enum schema_kind {
 enum schema_text {
     SCHEMA_TEXT_FREE,
     SCHEMA_TEXT_NAME,         // the language's names
-    SCHEMA_TEXT_BODY_NAME,    // a name of the language that a body has
+    SCHEMA_TEXT_BODY_NAME,    // a body's name in the language
     SCHEMA_TEXT_FOREIGN_NAME, // a name from another file: any text but the empty one
     SCHEMA_TEXT_PATH,
-    SCHEMA_TEXT_TARGET, // the way to a number of the scene, as --set has it: any text but the empty one
+    SCHEMA_TEXT_TARGET, // the path to a number of the scene, as in --set: any text but the empty one
     SCHEMA_TEXT_VALUES, // one to four numbers, expressions (core/expression.h) or #rrggbb, with ", "
                         // between them; YAML: one of them, or a list
 };
@@ -123,7 +123,7 @@ struct schema_row {
     enum schema_range range;
     const char *standard;     // the default, as scene text ("0 1 0", "clip", "true"); NULL: none
     const char *example;      // a value worth showing, as scene text; NULL if examples leave the row out
-    bool example_alone;       // the example is of the row by itself: that of its element leaves it out
+    bool example_alone;       // the example shows the row alone: the element's example leaves it out
     const char *example_next; // SCHEMA_FIXED: of the values after the first
     const char *const *words; // SCHEMA_WORD: in the order of the enum, NULL at the end
     const char *const *word_docs;
@@ -174,8 +174,8 @@ bool schema_in_range(enum schema_range range, double value);
 
 // Index of the row of this name ("up"), or -1.
 int schema_find_row(const struct schema_element *element, str name);
-// Index of the row that a YAML key names: by plural if the row is many, by name otherwise, or by name
-// for a named map with `single` (then *is_single is true). -1: none.
+// Index of the row that a YAML key names: by plural for a list or map, by name otherwise, or by name for a
+// named map with `single` (then *is_single is true). -1: none.
 int schema_find_yaml(const struct schema_element *element, str key, bool *is_single);
 // Index of the row that an XML child element names, or -1.
 int schema_find_child(const struct schema_element *element, str name);
@@ -195,11 +195,11 @@ const char *const *schema_components(enum schema_kind kind);
 const char *const *schema_file_endings(enum schema_file kind);
 // The same as words: ".png, .jpg, .jpeg or .hdr".
 str schema_file_words(enum schema_file kind, struct arena *arena);
-// Whether a path ends as the files of the kind do, without regard to case.
+// Whether a path has an ending of the kind's files, ignoring case.
 bool schema_file_fits(enum schema_file kind, str path);
 
 // Sets a field of one value (number, word, text, vector, colour, weights, boolean) from scene text, which
-// must be right: the table's own defaults and examples. Text is not copied.
+// must be valid: the table's own defaults and examples. Text is not copied.
 void schema_set_field(const struct schema_row *row, void *field, const char *text);
 // Fills a struct with the defaults of all its rows, children included; `memory` holds zeros before.
 void schema_init(const struct schema_element *element, void *memory);

@@ -1,4 +1,4 @@
-// The rows of the table for what moves: animation, tracks, keys.
+// The table's rows for motion: animation, tracks, keys.
 #include "grammar/schema_field.h"
 
 static const char *const interpolation_words[] = {"linear", "smooth", "ease", "step", NULL};

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-// The first row of a name counts, as in a search row by row.
+// Of rows with the same name the first counts, as in a search row by row.
 static void add(struct schema_facts *facts, enum schema_name_kind kind, const char *name, uint32_t row,
                 bool single) {
     uint32_t *found = str_map_at(&facts->rows[kind], str_from(name));

@@ -16,15 +16,15 @@ enum schema_name_kind {
     SCHEMA_NAME_KINDS,
 };
 
-// What is asked of each element that is bound. Sets of rows are masks: bit i is row i.
+// Facts about an element that each binding of it needs. Sets of rows are masks: bit i is row i.
 struct schema_facts {
     const void *defaults;
     int short_row, key_row; // as schema_short_row, schema_key_row
     int name_row;           // the element's own name, or -1
     uint64_t names;         // key rows and names
     uint64_t required;
-    bool has_choices; // of which one must be taken
-    // By name: 1 + the row, and, in the lowest bit, whether the name is that of a single item.
+    bool has_choices; // whether there are choices of which one must be taken
+    // By name: 1 + the row, with the lowest bit set if the name is that of a single item.
     struct str_map rows[SCHEMA_NAME_KINDS];
 };
 

@@ -1,13 +1,13 @@
 // From a scene file to the IR. All diagnostics of all stages in one run.
 //
-// There are nine stages (stages/parser.c). After each, what is said of it and of those before holds:
+// There are nine stages (stages/parser.c). After each, its line below and those before it hold:
 // 1 read      The file is a tree of its tokens, each with its place. No name of the language was looked up.
 //             What is wrong in the syntax is reported, and marked TREE_BAD or TREE_CUT.
-// 2 bind      The file is an IR of its own. Each value is right by its row of the table; or it is reported,
+// 2 bind      The file is an IR of its own. Each value is valid by its row of the table; else it is reported,
 //             marked in ir_head.poisoned, and has its default.
 // 3 resolve   Every file that is included is read and bound, once. loader->order has each before the one that
 //             includes it; if one cannot be read, output->unread says where.
-// 4 merge     There is one scene. Lists are joined; of elements that are there once the including file's
+// 4 merge     There is one scene. Lists are joined; for elements that occur once, the including file's
 //             attributes win. The IR of each file stays in origin.files.
 // 5 override  The --set options are applied, in their order, and bound by the same rules.
 // 6 animate   Where a frame of the animation is asked for, the values are those of that frame, and the scene
@@ -55,15 +55,15 @@ struct parser_output {
 // the sink.
 bool parser_load(const struct parser_input *input, uint32_t main_source, struct parser_output *output);
 
-// A scene as it is after stage 4, of which many are made that differ in their --set options and in the frame
-// of their animation.
+// A scene after stage 4, from which many are made that differ in their --set options and in the frame of
+// their animation.
 struct parser_kept;
-// Runs the first four stages. `input` is copied; what it points to, its sets left out, must outlive what is
-// kept. NULL: there is no scene, or anything was reported.
+// Runs the first four stages. `input` is copied; what it points to, except its sets, must outlive the kept
+// scene. NULL: there is no scene, or anything was reported.
 struct parser_kept *parser_keep(const struct parser_input *input, uint32_t main_source);
 void parser_drop(struct parser_kept *kept); // NULL does nothing
-// The other stages, as parser_load, for a copy of the scene. input->sources begins with those of the kept
-// scene. May run several times at once.
+// Runs the other stages, as parser_load does, for a copy of the scene. input->sources begins with those of
+// the kept scene. May run several times at once.
 bool parser_load_kept(const struct parser_kept *kept, const struct parser_input *input,
                       struct parser_output *output);
 

@@ -11,10 +11,10 @@
 
 enum {
     MESSAGE_MAX = 1024,
-    KEPT_TEXT_MAX = 256 << 20, // bytes of a file that are kept to show its lines
+    KEPT_TEXT_MAX = 256 << 20, // bytes of a file kept to show its lines
 };
 
-// Words of a broken file may hold anything: what is not text is shown as '?'.
+// Words of a broken file may contain anything: bytes that are not text are shown as '?'.
 __attribute__((format(printf, 2, 0))) static void format_message(char message[MESSAGE_MAX],
                                                                  const char *format, va_list args) {
     vsnprintf(message, MESSAGE_MAX, format, args);
@@ -134,7 +134,7 @@ bool asset_only_counts(struct asset_file *file, diag_code code) {
     return true;
 }
 
-// `line` is that of the place, for files whose text is not kept; 0 is the whole file.
+// `line` is the line of the place, for files whose text is not kept; 0 is the whole file.
 __attribute__((format(printf, 5, 0))) static void report(struct asset_file *file, diag_code code, span at,
                                                          uint32_t line, const char *format, va_list args) {
     const struct assets_input *input = file->input;
@@ -149,7 +149,7 @@ __attribute__((format(printf, 5, 0))) static void report(struct asset_file *file
 }
 
 // The line of a place in a text that is not kept as a source; 0 for others, which know their lines. Places
-// come mostly in their order, so that lines are counted from the last one.
+// mostly come in order, so lines are counted from the last one.
 static uint32_t line_if_not_kept(struct asset_file *file, size_t offset) {
     if (file->is_binary || file->input->sources->items[source_of(file)].text.len)
         return 0;

@@ -1,4 +1,4 @@
-// What the files of a scene are found and read with: sources, limits, the sink; and the list of those found.
+// The means to find and read the files of a scene (sources, limits, the sink), and the list of those found.
 //
 // Ownership: the caller's. Thread safety: one thread loads.
 #ifndef GLINT_ASSETS_FILE_ASSET_INPUT_H
@@ -35,9 +35,9 @@ struct assets_input {
     struct files *files;
     const struct limits *limits;
     struct diag_sink *sink;
-    struct arena *arena;       // for what belongs to this scene; guarded by the caller
-    struct asset_uses *uses;   // of the assets being loaded: set by assets_load
-    bool pixels_later;         // pixels that are kept may still be decoded when assets_load returns
+    struct arena *arena;       // for data that belongs to this scene; guarded by the caller
+    struct asset_uses *uses;   // the uses of the assets being loaded; set by assets_load
+    bool pixels_later;         // kept pixels may still be decoding when assets_load returns
     struct timeline *timeline; // may be NULL
 };
 

@@ -6,8 +6,8 @@ enum {
     WORD_MOST = 1000 // bytes
 };
 
-// What number_take does not decide: long mantissas, large exponents, and all that is not a number. The
-// language's own grammar finds what is wrong; only leading zeros are removed before.
+// Words that number_take does not decide: long mantissas, large exponents, and everything that is not a
+// number. The language's own grammar finds what is wrong; only leading zeros are removed first.
 static enum number_status slow_number(str word, double *value) {
     char copy[WORD_MOST + 1];
     size_t length = 0;

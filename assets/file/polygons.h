@@ -1,8 +1,8 @@
-// What a mesh file says, as the file has it: the polygons that every reader makes of its format, before they
-// become triangles (assets/mesh_build.h).
+// The contents of a mesh file as the file has them: the polygons that every reader makes from its format,
+// before they become triangles (assets/mesh_build.h).
 //
 // Units: those of the file; texture coordinates go to the right and upwards, an image from 0 to 1. Ownership:
-// all of it is in one arena and may point into the file's text. Thread safety: plain data.
+// everything is in one arena and may point into the file's text. Thread safety: plain data.
 #ifndef GLINT_ASSETS_FILE_POLYGONS_H
 #define GLINT_ASSETS_FILE_POLYGONS_H
 
@@ -23,7 +23,7 @@ struct mesh_library {
     uint32_t line;
 };
 
-// What a mesh file says and no picture shows as it is said.
+// Contents of a mesh file that no picture shows as they are.
 enum mesh_loss {
     MESH_LOSS_NOT_FACES, // points, lines, curves and surfaces
     MESH_LOSS_COLORS,    // of vertices
@@ -83,11 +83,11 @@ struct polygons {
     } libraries;
     bool is_joined;                                 // no two vertices are at the same position
     bool is_binary;                                 // a line is the number of a face, from 1
-    uint64_t triangle_count;                        // that the faces will give
-    struct mesh_loss_count losses[MESH_LOSS_COUNT]; // of what is in lines of their own
+    uint64_t triangle_count;                        // how many triangles the faces will give
+    struct mesh_loss_count losses[MESH_LOSS_COUNT]; // losses that have lines of their own
 };
 
-// The coordinates of textures, read by themselves and only where an image asks for them.
+// Texture coordinates, read separately and only if an image needs them.
 struct textured_corner {
     uint32_t vertex;     // as in polygons
     uint32_t coordinate; // into coordinates; IR_NO_INDEX: none

@@ -1,4 +1,4 @@
-// What accessors hold: numbers of any type, with their sparse values, and the corners of triangles.
+// The contents of accessors: numbers of any type, with their sparse values, and the corners of triangles.
 #include "assets/gltf/gltf_internal.h"
 #include "core/float_bits.h"
 #include "core/heap.h"
@@ -77,7 +77,7 @@ static double *read_elements(const struct gltf *gltf, const struct gltf_accessor
     return out;
 }
 
-// As read_elements, of an accessor of whole numbers that are not normalized.
+// As read_elements, for an accessor of whole numbers that are not normalized.
 static uint32_t *read_indices(const struct gltf *gltf, const struct gltf_accessor *a) {
     uint32_t *out = ARENA_ARRAY(gltf->arena, uint32_t, a->count);
     if (a->view != GLTF_NONE && a->count) {
@@ -116,7 +116,7 @@ static bool check_sparse(struct gltf *gltf, const struct gltf_accessor *a) {
     return true;
 }
 
-// What the file says of the least and largest numbers of positions, by which others place a camera.
+// Checks the file's least and largest position values, by which other programs place a camera.
 static void check_bounds(struct gltf *gltf, const struct gltf_accessor *a, const double *elements) {
     double least[3], most[3], low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL},
                               high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -146,7 +146,7 @@ static void check_bounds(struct gltf *gltf, const struct gltf_accessor *a, const
     }
 }
 
-// That all numbers are finite, and no larger than a scene takes.
+// Checks that all numbers are finite, and no larger than a scene allows.
 static bool check_numbers(struct gltf *gltf, const struct gltf_accessor *a, const double *elements) {
     for (size_t i = 0; i < (size_t)a->count * a->components; i++) {
         if (fabs(elements[i]) <= 1e18)
@@ -236,7 +236,7 @@ static const uint32_t *corners_of(const struct gltf *gltf, const struct gltf_pri
     uint32_t *out = ARENA_ARRAY(arena, uint32_t, heap_times(3, triangles));
     for (uint64_t t = 0; t < triangles; t++) {
         const uint32_t i = (uint32_t)t, odd = i & 1;
-        // As the specification orders them, so that all faces of a strip look the same way.
+        // In the specification's order, so that all faces of a strip face the same way.
         uint32_t at[3] = {3 * i, 3 * i + 1, 3 * i + 2};
         if (p->mode == GLTF_TRIANGLE_STRIP) {
             at[0] = i;

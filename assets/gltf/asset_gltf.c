@@ -80,8 +80,7 @@ void gltf_documents_finish(struct gltf_document *first) {
 
 // ---- files beside it
 
-// The line of a value, for messages about what it says; 0 in a GLB file, whose JSON has no lines that people
-// see.
+// The line of a value, for messages about it; 0 in a GLB file, whose JSON has no visible lines.
 static uint32_t gltf_document_line(const struct gltf_document *document, json_index at) {
     const str text = document->gltf.json.text;
     const size_t offset = json_at(&document->gltf.json, at)->begin;
@@ -188,7 +187,7 @@ static void take_means(const struct picture *picture, struct gltf_means *out) {
     out->metal = fmin(sum[1] / (double)pixels, 1);
 }
 
-// What cannot be read is reported where an image is drawn, and counts as none here.
+// An unreadable image is reported where it is drawn, and counts as none here.
 static void read_means(void *context) {
     struct mean *mean = context;
     struct gltf_document *document = mean->document;

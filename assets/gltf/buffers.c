@@ -1,11 +1,10 @@
-// Buffers, views of them and accessors: what the bytes of a file are, checked by their counts before any is
-// read.
+// Buffers, views and accessors: the layout of a file's bytes, checked by counts before any byte is read.
 #include "assets/gltf/gltf_internal.h"
 #include "diag/codes/file.h"
 
 #include <string.h>
 
-#define BYTES_MOST 0x1p53 // that a number in JSON counts exactly
+#define BYTES_MOST 0x1p53 // how many bytes a JSON number can count exactly
 
 enum {
     STRIDE_LEAST = 4,
@@ -122,7 +121,7 @@ static bool read_component(struct gltf *gltf, json_index node, unsigned *out) {
     return false;
 }
 
-// That `count` elements, the first at `offset`, are inside a view.
+// Checks that `count` elements, the first at `offset`, are inside a view.
 static void check_range(struct gltf *gltf, json_index node, uint32_t view, uint64_t offset, uint64_t count,
                         uint32_t stride, uint32_t size, uint32_t align) {
     const struct gltf_view *v = &gltf->views.items[view];

@@ -1,7 +1,7 @@
 #include "assets/gltf/gltf_internal.h"
 #include "diag/codes/file.h"
 
-// What is read and shown, or changes nothing that is shown.
+// Extensions that are read and shown, or that change nothing shown.
 static const char *const known[] = {
     "KHR_materials_ior",
     "KHR_materials_volume",
@@ -103,7 +103,7 @@ static void report_syntax(struct gltf *gltf) {
 static bool read_json(struct gltf *gltf, str bytes, struct arena *arena) {
     str text = bytes;
     json_read(&gltf->json, STR("0"),
-              arena); // what is wrong before there is JSON has its first byte as a place
+              arena); // faults before the JSON are placed at its first byte
     if (gltf_is_binary(bytes) && !gltf_take_chunks(gltf, bytes, &text))
         return false;
     if (!json_read(&gltf->json, text, arena)) {

@@ -26,7 +26,7 @@ void gltf_add(struct gltf *gltf, diag_code code, json_index at, const char *form
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
     const struct json_node *node = json_at(&gltf->json, at);
-    // Of what is long only its first character is shown.
+    // Of long values only the first character is shown.
     const bool is_long =
         node->kind == JSON_OBJECT || node->kind == JSON_LIST || node->end - node->begin > SHOWN_MAX;
     gltf->report->add(gltf->report->context, code, node->begin, is_long ? node->begin + 1 : node->end,

@@ -1,5 +1,4 @@
-// Properties of JSON objects by their type, range and what they refer to: what is wrong is reported at its
-// place.
+// Properties of JSON objects, checked by type, range and references: faults are reported at their place.
 //
 // Thread safety: as gltf.h.
 #ifndef GLINT_ASSETS_GLTF_FIELDS_H
@@ -7,8 +6,8 @@
 
 #include "assets/gltf/gltf.h"
 
-// Each returns false where the property is missing or wrong, and then *out is unchanged; only what is wrong
-// is reported.
+// Each returns false if the property is missing or wrong, and then leaves *out unchanged; only wrong ones are
+// reported.
 bool gltf_get_number(struct gltf *gltf, json_index object, const char *key, double least, double most,
                      double *out);
 bool gltf_get_whole(struct gltf *gltf, json_index object, const char *key, uint64_t most, uint64_t *out);
@@ -21,11 +20,11 @@ bool gltf_get_index(struct gltf *gltf, json_index object, const char *key, uint3
 // An object or a list; 0: missing, or wrong.
 json_index gltf_get_object(struct gltf *gltf, json_index object, const char *key);
 json_index gltf_get_list(struct gltf *gltf, json_index object, const char *key);
-// Says that a property that there must be is missing.
+// Reports that a required property is missing.
 void gltf_missing(struct gltf *gltf, json_index object, const char *key);
 // The name of an object; empty: none.
 str gltf_name(struct gltf *gltf, json_index object);
-// Whether a text has no control characters, which no scene may have.
+// Whether a text has no control characters, which scenes may not contain.
 bool gltf_is_clean(str text);
 // object.extensions.name; 0: none.
 json_index gltf_extension(struct gltf *gltf, json_index object, const char *name);

@@ -1,9 +1,9 @@
-// glTF 2.0 (ISO/IEC 12113:2022) as the file has it: JSON or GLB to arrays whose references are right.
+// glTF 2.0 (ISO/IEC 12113:2022) as the file has it: JSON or GLB to arrays whose references are valid.
 //
-// gltf_open reads the JSON and checks it; gltf_load_buffers brings the bytes; gltf_read_primitive looks at
-// every number of what is drawn. All that a later step relies on holds after it: indices are below their
+// gltf_open reads the JSON and checks it; gltf_load_buffers loads the bytes; gltf_read_primitive checks every
+// number that is drawn. After each step, everything that later steps rely on holds: indices are below their
 // counts, ranges are inside their buffers, nodes are trees. What glint cannot show is counted (enum
-// gltf_loss), and told by the caller. Errors: told by the report at the place in the JSON and counted in
+// gltf_loss), and reported by the caller. Errors: reported at the place in the JSON and counted in
 // gltf->errors; after one the next step must not be taken. Ownership: everything is in the arena, which must
 // be guarded, and points into the text. Units: metres and radians, as the file has them; numbers are doubles.
 // Thread safety: one thread.
@@ -22,7 +22,7 @@ struct gltf_report {
     void (*add)(void *context, diag_code code, size_t begin, size_t end, const char *message);
 };
 
-// What is in a file and not in the picture: how often, and where first.
+// A feature of a file that is not in the picture: how often it occurs, and where first.
 enum gltf_loss {
 #define X(NAME, sentence) GLTF_LOSS_##NAME,
 #include "assets/gltf/losses.def"
@@ -75,8 +75,8 @@ struct gltf_accessor {
     uint32_t components; // 1 to 4, 9, 16
     bool is_matrix;
     bool normalized;
-    const uint32_t *indices; // all of them, once they were read as indices
-    const double *elements;  // all of them, once they were read; normalized integers from 0, or -1, to 1
+    const uint32_t *indices; // all elements, once read as indices
+    const double *elements;  // all elements, once read; normalized integers: from 0, or -1, to 1
     struct gltf_sparse sparse;
 };
 
@@ -156,7 +156,7 @@ enum gltf_wrap {
 };
 
 struct gltf_sampler {
-    unsigned magnify; // 0: not said
+    unsigned magnify; // 0: not given
     unsigned wrap[2]; // gltf_wrap
 };
 
@@ -168,7 +168,7 @@ struct gltf_texture {
 
 // Where a material names a texture.
 struct gltf_texture_use {
-    json_index node; // 0: it does not
+    json_index node; // 0: there is none
     uint32_t texture;
     uint32_t set;       // of coordinates
     bool has_transform; // KHR_texture_transform
@@ -184,7 +184,7 @@ enum gltf_alpha {
 struct gltf_material {
     json_index node;
     str name;
-    bool is_named; // with a name that no other has
+    bool is_named; // whether its name is unique
     double base[4];
     double metallic, roughness;
     double emission[3]; // times its strength
@@ -209,7 +209,7 @@ struct gltf {
     const struct gltf_report *report; // NULL: findings are only counted
     uint32_t errors, warnings;
     struct json json;
-    uint64_t most_elements; // of an accessor without bytes, which costs a file nothing; set by the caller
+    uint64_t most_elements; // for an accessor without bytes, which costs a file nothing; set by the caller
     bool is_binary;         // GLB
     str chunk;              // its BIN chunk; empty: none
     bool has_chunk;
@@ -235,7 +235,7 @@ bool gltf_is_binary(str bytes);
 // Reads a .gltf or .glb file: everything but the bytes of buffers. false: there were errors.
 bool gltf_open(struct gltf *gltf, str bytes, const struct gltf_report *report, struct arena *arena);
 
-// Brings the bytes of a file that the glTF file names; false: it has been reported.
+// Loads the bytes of a file that the glTF file names; false: the fault was reported.
 struct gltf_files {
     void *context;
     bool (*read)(void *context, str uri, json_index at, str *bytes);
@@ -246,14 +246,14 @@ bool gltf_load_buffers(struct gltf *gltf, const struct gltf_files *files);
 // What a primitive draws.
 struct gltf_geometry {
     const double *positions;                         // three a vertex
-    const double *normals;                           // three a vertex; NULL: none
-    const double *coordinates[GLTF_COORDINATE_SETS]; // two a vertex; NULL: none
+    const double *normals;                           // three per vertex; NULL: none
+    const double *coordinates[GLTF_COORDINATE_SETS]; // two per vertex; NULL: none
     uint32_t vertices;
-    const uint32_t *corners; // three a triangle; strips and fans are taken apart
+    const uint32_t *corners; // three per triangle; strips and fans are taken apart
     uint32_t triangles;
 };
 // Reads it once there are buffers, and checks that it can be drawn: numbers are finite, and indices name
-// vertices. What was read of accessors stays in the arena of the document, the corners are in the given one.
+// vertices. The accessors' numbers stay in the arena of the document; the corners are in the given one.
 // Points and lines have no triangles. false: there were errors.
 bool gltf_read_primitive(struct gltf *gltf, const struct gltf_primitive *primitive, struct arena *arena,
                          struct gltf_geometry *out);
@@ -263,7 +263,7 @@ uint64_t gltf_triangle_count(const struct gltf *gltf, const struct gltf_primitiv
 // The bytes of a view; the empty string for none, or before there are buffers.
 str gltf_view_bytes(const struct gltf *gltf, uint32_t view);
 
-// What `data:` says after its comma, decoded, in the arena; false: it is not base64.
+// The decoded text after the comma of a `data:` address, in the arena; false: it is not base64.
 bool gltf_decode_data(str uri, struct arena *arena, str *bytes, str *mime);
 bool gltf_is_data(str uri);
 // A reference with its %XX decoded, in the arena.
@@ -274,7 +274,7 @@ str gltf_decode_uri(str uri, struct arena *arena);
 void gltf_add(struct gltf *gltf, diag_code code, json_index at, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 void gltf_lose(struct gltf *gltf, enum gltf_loss what, json_index at);
-// Tells the losses that were counted, each once, and forgets them.
+// Reports the losses that were counted, each once, and forgets them.
 void gltf_report_losses(struct gltf *gltf);
 // The place of a value as words: "accessors[3].max".
 const char *gltf_where(const struct gltf *gltf, json_index at);

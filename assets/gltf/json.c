@@ -10,7 +10,7 @@
 // An object or a list that is open.
 struct frame {
     json_index node;
-    json_index last; // of what it has; 0: nothing yet
+    json_index last; // the last child; 0: none yet
 };
 
 struct reading {
@@ -186,7 +186,7 @@ static bool open_frame(struct reading *r, enum json_kind kind, json_index *node)
 
 static const char twice[] = "the object has this key twice";
 
-// That no object has a key twice: of small ones by comparing all, of others by a table.
+// Checks that no object has a key twice: small ones by comparing all keys, others by a table.
 static bool check_keys(struct reading *r, json_index object) {
     struct json *json = r->json;
     enum {
@@ -393,7 +393,7 @@ str json_text(const struct json *json, json_index text) {
     if (json_at(json, text)->is_plain)
         return raw;
     static const char letters[] = "bfnrt", meant[] = "\b\f\n\r\t";
-    char *out = arena_alloc(json->arena, raw.len + 1); // no escape is longer decoded than it was
+    char *out = arena_alloc(json->arena, raw.len + 1); // no escape is longer when decoded
     size_t length = 0;
     for (size_t at = 0; at < raw.len;) {
         if (raw.ptr[at] != '\\') {
@@ -421,7 +421,7 @@ double json_number(const struct json *json, json_index number) {
 
 // ---- places
 
-// The child of `parent` whose text holds that of `node`; *key and *index say which it is.
+// The child of `parent` whose text contains that of `node`; *key and *index identify it.
 static json_index child_towards(const struct json *json, json_index parent, json_index node, json_index *key,
                                 uint32_t *index) {
     const uint32_t begin = json_at(json, node)->begin;

@@ -1,4 +1,4 @@
-// JSON (RFC 8259) as a tree that knows where each value is: for files whose mistakes are reported by their
+// JSON (RFC 8259) as a tree that knows where each value is: for files whose mistakes are reported at their
 // place.
 //
 // Read strictly: what the standard does not allow is a fault, and so is a key that an object has twice,
@@ -63,7 +63,7 @@ static inline enum json_kind json_kind_of(const struct json *json, json_index no
 const char *json_kind_words(enum json_kind kind);
 // The value of a key without escapes; 0: the object has none, or `object` is none.
 json_index json_get(const struct json *json, json_index object, const char *key);
-// A text without its quotes, as it is written; only for is_plain what it means.
+// A text without its quotes, as written; only if is_plain, this is also its meaning.
 str json_raw(const struct json *json, json_index text);
 // A text decoded: in the arena where it has escapes, else in the text of the file. U+0000 and unpaired
 // surrogates become U+FFFD.

@@ -160,7 +160,7 @@ static void read_material(struct gltf *gltf, json_index node) {
     read_glass(gltf, node, m);
 }
 
-// Which names say which material they mean: those of one, and of none that is called by its number.
+// Which names identify a material: those that only one has, and that equal no material's numbered name.
 static void find_names(struct gltf *gltf) {
     struct str_map map;
     str_map_init(&map, gltf->arena);

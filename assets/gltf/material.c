@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-// A roughness up to which a surface that is not a metal still mirrors something that can be recognised.
+// Up to this roughness, a surface that is not a metal still shows recognisable reflections.
 #define MIRRORS_UNTIL 0.3
 #define EXPONENT_MOST 10000.0
 
@@ -76,7 +76,7 @@ static void put_image(struct gltf *gltf, const struct gltf_texture_use *use, str
 
 // ---- colours
 
-// To four decimals, which no picture shows: these numbers are there to be read.
+// To four decimals: people read these numbers, and no picture shows more.
 static double tidy(double value) {
     return round(value * 1e4) / 1e4;
 }
@@ -92,7 +92,7 @@ static double luminance(const double *rgb) {
     return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
 }
 
-// What a grey factor makes of an image's colours is a weight; another colour cannot be said.
+// A grey factor on an image's colours is a weight; a coloured factor cannot be expressed.
 static double weight_of_factor(struct gltf *gltf, const struct gltf_material *m) {
     if (m->base[0] != m->base[1] || m->base[1] != m->base[2])
         gltf_lose(gltf, GLTF_LOSS_TINT, m->node);
@@ -115,8 +115,8 @@ static void put_base(struct gltf *gltf, const struct gltf_material *m, bool is_l
 
 struct surface {
     double metal, roughness, clear; // clear: share of light that goes through
-    double mirror;                  // of light that falls on it straight
-    bool is_thin;                   // what it lets through is not bent
+    double mirror;                  // share of perpendicular light
+    bool is_thin;                   // light that goes through is not bent
 };
 
 static struct surface surface_of(const struct gltf_material *m, struct gltf_wording wording) {
@@ -136,7 +136,7 @@ static bool mirrors(const struct surface *s) {
     return s->metal < 0.5 && s->roughness <= MIRRORS_UNTIL && s->mirror > 0;
 }
 
-// Of a metal: 0 for grey, 1 for a pure colour. Mirrors have no colour: what is matt shows it.
+// For a metal: 0 for grey, 1 for a pure colour. Mirrors have no colour: the matt part shows it.
 static double colorfulness(const struct gltf_material *m) {
     const double most = fmax(m->base[0], fmax(m->base[1], m->base[2]));
     const double least = fmin(m->base[0], fmin(m->base[1], m->base[2]));
@@ -148,12 +148,12 @@ static void put_albedo(const struct gltf_material *m, const struct surface *s, d
     struct ir_weights *w = &out->albedo;
     const double shine = s->metal + (1 - s->metal) * s->mirror,
                  alpha = fmax(s->roughness * s->roughness, 0.01);
-    // A rough metal scatters nearly as a matt surface of its colour does.
+    // A rough metal scatters nearly like a matt surface of its colour.
     const double matt = s->roughness + (1 - s->roughness) * colorfulness(m) / 2;
     w->diffuse = factor * ((1 - s->metal) * (1 - s->clear) + s->metal * matt);
     w->reflection = s->metal * (1 - matt) * (m->base_texture.node ? 1 : luminance(m->base));
     w->refraction = s->clear;
-    // The peak of the microfacets' distribution (Walter et al. 2007), and the lobe of Phong that is as wide.
+    // The peak of the microfacet distribution (Walter et al. 2007), and the Phong lobe of the same width.
     w->specular = s->roughness < 0.9 ? fmin(1, shine / (4 * alpha * alpha)) : 0;
     if (s->clear > 0 && s->is_thin) {
         w->reflection += s->mirror * s->clear;
@@ -218,7 +218,7 @@ static void put_emission(struct gltf *gltf, const struct gltf_material *m, bool 
     write(&out->head, &SCHEMA_MATERIAL, "emission");
 }
 
-// Seen in its own colour, whatever lights there are.
+// Emission: seen in its own colour, whatever lights there are.
 static void put_unlit(struct gltf *gltf, const struct gltf_material *m, double factor,
                       struct ir_material *out) {
     const bool has_image = out->diffuse_color.kind == IR_PAINT_IMAGE;

@@ -1,9 +1,9 @@
-// glTF's materials in the words of the scene language: metal and roughness, glass, what shines by itself.
+// glTF's materials in the words of the scene language: metal and roughness, glass, emission.
 //
-// Base colour becomes the diffuse colour, or an image; metal a mirror, the duller the more diffuse, since
-// mirrors have no colour; roughness the size of highlights; transmission refraction, with Fresnel's shares
-// and the volume's colour where the body has a thickness. docs/gltf.md has the table. What has no counterpart
-// is counted as a loss.
+// Base colour becomes the diffuse colour, or an image; metal becomes a mirror, more diffuse the duller it is,
+// since mirrors have no colour; roughness the size of highlights; transmission refraction, with Fresnel's
+// shares and the volume's colour where the body has a thickness. docs/gltf.md has the table. Anything without
+// a counterpart is counted as a loss.
 //
 // Ownership: names and images belong to the document. Thread safety: one thread.
 #ifndef GLINT_ASSETS_GLTF_MATERIAL_H
@@ -32,7 +32,7 @@ struct gltf_images gltf_material_images(const struct gltf *gltf, uint32_t materi
 void gltf_to_material(struct gltf *gltf, uint32_t material, struct gltf_wording wording,
                       struct ir_material *out);
 
-// By which name a mesh's faces of a material are called: its own where it has one that no other has.
+// The name for a mesh's faces with this material: the material's own name if no other has it.
 str gltf_material_name(const struct gltf *gltf, uint32_t material);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#define SIZE_MOST 1e18 // that a scene may have
+#define SIZE_MOST 1e18 // the largest size that a scene may have
 
 // ---- cameras and lights
 
@@ -88,7 +88,7 @@ void gltf_read_cameras(struct gltf *gltf) {
 
 static const affine3 identity = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {0, 0, 0}};
 
-// Of a quaternion x y z w, made a unit one first.
+// The rotation of a quaternion x y z w, which is normalized first.
 static mat3 rotation_of(const double q[4]) {
     const double n = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
     if (!(n > 0))
@@ -144,7 +144,7 @@ static void read_node(struct gltf *gltf, json_index node) {
         gltf_lose(gltf, GLTF_LOSS_SKIN, node);
 }
 
-// The nodes that a list names get this parent; a node that has one is reported, and keeps it.
+// The nodes in a list get this parent; a node that already has one is reported and keeps it.
 static void adopt(struct gltf *gltf, json_index list, uint32_t parent) {
     for (json_index at = json_at(&gltf->json, list)->first; at; at = json_at(&gltf->json, at)->next) {
         const double number =
@@ -163,7 +163,7 @@ static void adopt(struct gltf *gltf, json_index list, uint32_t parent) {
     }
 }
 
-// That going from parent to parent ends. The mark is the node from which a way first came by.
+// Checks that going from parent to parent ends. The mark is the node from which a walk first passed by.
 static void check_circles(struct gltf *gltf) {
     uint32_t *mark = ARENA_ARRAY(gltf->arena, uint32_t, (size_t)gltf->nodes.count + 1);
     for (uint32_t i = 0; i < gltf->nodes.count; i++) {

@@ -28,12 +28,12 @@ struct reading {
     } shown;
     uint32_t *group_of; // by material, the last for none: 1 + the group
     uint64_t vertices;  // at most
-    uint64_t most;      // triangles; what is beyond is counted alone
+    uint64_t most;      // most triangles; those beyond are only counted
     bool has_normals;
     struct {
         struct ir_pair *items;
         uint32_t count, capacity;
-    } coordinates; // of every vertex, where they are asked for; NaN: it has none
+    } coordinates; // of every vertex, if requested; NaN: it has none
     bool wants_coordinates;
 };
 
@@ -52,12 +52,12 @@ static uint32_t group_of(struct reading *r, const struct gltf_primitive *p) {
     return *group - 1;
 }
 
-// Whether to share vertices costs less than to give each corner one of its own.
+// Whether sharing vertices costs less than giving each corner its own.
 static bool shares(const struct gltf *gltf, const struct gltf_primitive *p) {
     return gltf->accessors.items[p->position].count <= 3 * gltf_triangle_count(gltf, p);
 }
 
-// A few bytes can show a mesh again, which takes as much memory as the first time.
+// A few bytes can show a mesh again, which takes as much memory again.
 static uint64_t most_triangles(const struct reading *r) {
     uint64_t bytes = r->gltf->json.text.len;
     for (uint32_t i = 0; i < r->gltf->buffers.count; i++)
@@ -122,7 +122,7 @@ static bool show_part(struct reading *r, str part) {
 
 // ---- vertices
 
-// What turns normals: the matrix of cofactors, which is the inverse transpose times the determinant.
+// The matrix that transforms normals: that of cofactors, the inverse transpose times the determinant.
 static mat3 for_normals(mat3 a) {
     const double sign = mat3_determinant(a) < 0 ? -1 : 1;
     mat3 c;
@@ -163,7 +163,7 @@ static void put_vertex(const struct placing *p, uint32_t at) {
         c ? (struct ir_pair){c[0], 1 - c[1]} : (struct ir_pair){NAN, NAN};
 }
 
-// The normal of a face of a primitive without: it is flat.
+// The normal of a face if the primitive has no normals: it is flat.
 static void put_flat(struct reading *r, const uint32_t corners[3]) {
     const vec3 *v = r->out->vertices.items;
     const vec3 a = v[corners[0]], b = v[corners[1]], c = v[corners[2]];

@@ -7,7 +7,7 @@
 
 enum {
     WITH_COLOR = 6,    // numbers of a vertex
-    DIGITS_MOST = 15,  // of a number that is read here: an integer below 2^53 over a power of ten
+    DIGITS_MOST = 15,  // digits of a number read here: an integer below 2^53 over a power of ten
     INTEGER_MOST = 10, // digits of an index
 };
 
@@ -39,7 +39,7 @@ enum line_kind {
     LINE_OTHER,
 };
 
-// Of the line whose first word begins at `p`.
+// The kind of the line whose first word begins at `p`.
 static inline enum line_kind kind_of(const char *p, const char *end) {
     if (p == end || *p == '\n' || *p == '\r' || *p == '#')
         return LINE_NOTHING;
@@ -68,7 +68,7 @@ static inline const char *skip_spaces(const char *p, const char *end) {
     return p;
 }
 
-// After the line end, or `end`.
+// The place after the line end, or `end`.
 static const char *next_line(const char *p, const char *end, uint32_t *lines) {
     const char *found = memchr(p, '\n', (size_t)(end - p));
     if (!found)
@@ -224,7 +224,7 @@ static bool take_normal(struct quick *q) {
     return take_point(q, &q->obj->normals.items[number], &numbers);
 }
 
-// An index at the cursor, as one from 0; `count` things are defined so far.
+// An index at the cursor, converted to start from 0; `count` things are defined so far.
 static bool take_index(struct quick *q, uint32_t count, uint32_t *out) {
     int64_t index;
     if (!take_integer(q, &index))

@@ -1,8 +1,8 @@
-// Pieces of an OBJ file, for threads: whole lines, first counted, then read to where they belong.
+// Pieces of an OBJ file, for threads: whole lines, first counted, then read into their final places.
 //
-// Only ordinary lines are understood: `v`, `vn` and `f` without a fault, lines without effect, and others
-// that are only noted. A piece with anything else (a fault, a continued line, lines that end with \r, an
-// index of more than ten digits) is not ordinary, and its file is left to the sequential reader, which
+// Only ordinary lines are understood: `v`, `vn` and `f` without a fault, lines without effect, and other
+// lines, which are only noted. A piece with anything else (a fault, a continued line, lines that end with \r,
+// an index of more than ten digits) is not ordinary, and its file is left to the sequential reader, which
 // reports. Thread safety: a chunk belongs to one thread; threads write to different parts of the arrays.
 #ifndef GLINT_ASSETS_OBJ_OBJ_CHUNK_H
 #define GLINT_ASSETS_OBJ_OBJ_CHUNK_H
@@ -26,7 +26,7 @@ struct obj_chunk {
     const char *begin, *end;
     bool is_ordinary;
     struct obj_counts here;   // by obj_chunk_count
-    struct obj_counts before; // of all chunks before; by the caller
+    struct obj_counts before; // counts of all chunks before; set by the caller
     // By obj_chunk_read:
     uint64_t triangles;
     bool refers_forward; // as the sequential reader notes it

@@ -1,5 +1,5 @@
-// The texture coordinates of an OBJ file (`vt`): a second walk over its text, so that meshes without images
-// cost neither time nor memory for it.
+// The texture coordinates of an OBJ file (`vt`): a second walk over its text, so meshes without images cost
+// no time or memory for it.
 #include "assets/obj/obj_lex.h"
 #include "assets/obj/read_obj.h"
 #include "diag/codes/file.h"
@@ -24,7 +24,7 @@ static void report(struct reading *r, diag_code code, const char *begin, const c
 
 // ---- lines
 
-// One or two numbers; a third is for solid textures, which there are not.
+// One or two numbers; a third is for solid textures, which glint does not have.
 static void read_coordinate(struct reading *r, str keyword) {
     double value[2] = {0, 0};
     int count = 0;
@@ -44,7 +44,7 @@ static void read_coordinate(struct reading *r, str keyword) {
     *ARENA_PUSH(r->scratch, &r->out->coordinates) = (struct ir_pair){value[0], value[1]};
 }
 
-// An index from 1 on, or counted back from the last; as one from 0.
+// Converts an index from 1, or one counted back from the last, to an index from 0.
 static uint32_t from_zero(int64_t index, uint32_t count) {
     const int64_t absolute = index < 0 ? (int64_t)count + index : index - 1;
     return absolute >= 0 && absolute < (int64_t)IR_NO_INDEX ? (uint32_t)absolute : IR_NO_INDEX;
@@ -85,7 +85,7 @@ static void read_line(struct reading *r) {
     }
 }
 
-// Indices that name what no line defines, once the whole file is known.
+// Indices of coordinates that no line defines, once the whole file is known.
 static void check_forward(struct reading *r) {
     uint32_t wrong = 0;
     uint32_t largest = 0;

@@ -39,7 +39,7 @@ str obj_lex_rest(struct obj_lex *lex);
 enum number_status obj_lex_number(struct obj_lex *lex, double *value);
 
 // Reads a decimal integer with an optional sign at the cursor, which moves past its digits; false if there is
-// none. Values beyond ±2^40 are cut to that.
+// none. Values beyond ±2^40 are clamped to it.
 bool obj_lex_integer(struct obj_lex *lex, int64_t *value);
 // Whether the cursor is at the end of a word.
 bool obj_lex_word_ends(const struct obj_lex *lex);

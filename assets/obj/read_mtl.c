@@ -12,7 +12,7 @@
 #define ROUNDING 0.001
 
 enum {
-    KINDS_MAX = 16,  // of what has no effect, each told by itself; the others share a last one
+    KINDS_MAX = 16,  // of statements without effect, each reported separately; the rest share a last one
     WORD_SHOWN = 64, // bytes of a statement
     ILLUM_MATT = 1,
     ILLUM_USUAL = 2,
@@ -21,10 +21,10 @@ enum {
     ILLUM_MODES = 11,
 };
 
-// What the modes of `illum` say besides (Ramey, Rose and Tyerman: MTL material format, 1995).
+// The other meanings of the modes of `illum` (Ramey, Rose and Tyerman: MTL material format, 1995).
 static const struct illum_mode {
     bool fresnel, transparent;
-    const char *never; // why it has no effect, whatever else is written; NULL: it may have
+    const char *never; // why it never has an effect; NULL: it may have one
 } illum_modes[ILLUM_MODES] = {
     [0] = {.never = "all surfaces are shaded"},
     [4] = {.transparent = true},
@@ -48,13 +48,13 @@ struct mtl_entry {
     str image; // of map_Kd, in the text; empty: none
     uint32_t image_line;
     uint32_t kd_line;
-    struct ir_pair repeat, shift; // what coordinates are multiplied by, and what is added
+    struct ir_pair repeat, shift; // factor and offset for coordinates
     bool clamps;
 };
 
-// Statements that have no effect, for one reason.
+// Statements that have no effect for the same reason.
 struct mtl_dropped {
-    str word; // in the text: the first of them
+    str word; // in the text: the first statement
     const char *why;
     bool is_map;
     bool is_shared; // the last one: other statements are counted here
@@ -70,7 +70,7 @@ struct mtl_reader {
     uint32_t dropped_kinds;
 };
 
-// ---- what has no effect
+// ---- statements without effect
 
 static const char TF_AT_SURFACES[] = "light takes its colour on its way inside, and not at surfaces";
 static const char NOT_TRANSPARENT[] = "'d' and 'Tr' say how much light is let through, and neither lets any";
@@ -113,7 +113,7 @@ static bool is_map(str keyword) {
     return str_starts_with(keyword, STR("map_"));
 }
 
-// Whether all numbers of the line are 0, with which the statement changes nothing.
+// Whether all numbers of the line are 0, so that the statement changes nothing.
 static bool is_zero(struct mtl_reader *r) {
     bool all = obj_lex_more(&r->lex);
     while (obj_lex_more(&r->lex)) {
@@ -229,7 +229,7 @@ static bool read_color(struct mtl_reader *r, str keyword, double out[3]) {
     return true;
 }
 
-// "d 0.5", "d -halo 0.5": the option makes it depend on the angle, which is not used.
+// "d 0.5", "d -halo 0.5": the option makes the value depend on the angle, which is not supported.
 static bool read_dissolve(struct mtl_reader *r, str keyword, double *value) {
     if (obj_lex_more(&r->lex) && *r->lex.at == '-' && r->lex.at + 1 < r->lex.end && r->lex.at[1] == 'h')
         drop(r, obj_lex_word(&r->lex), "transparency does not depend on the angle", false);
@@ -267,7 +267,7 @@ static uint32_t take_words(struct mtl_reader *r, const struct map_option *option
     return count;
 }
 
-// -s, -o, -clamp; what else is there has no effect. false: it is not an option, and the file's name begins.
+// -s, -o, -clamp; other options have no effect. false: it is not an option, and the file's name begins.
 static bool read_map_option(struct mtl_reader *r) {
     const struct obj_lex before = r->lex;
     const str name = obj_lex_word(&r->lex);
@@ -316,7 +316,7 @@ static double within(enum schema_range range, double value) {
     return fmin(fmax(value, info->least), info->greatest);
 }
 
-// u of the file becomes repeat * u + shift there, repeat * (u - offset) here.
+// The file turns u into repeat * u + shift, glint into repeat * (u - offset).
 static void take_image(struct mtl_reader *r, struct ir_material *m) {
     const struct mtl_entry *e = &r->entry;
     struct mtl_image *place = ARENA_PUSH(r->out->names.arena, &r->out->images);
@@ -336,7 +336,7 @@ static void take_image(struct mtl_reader *r, struct ir_material *m) {
 
 // ---- materials
 
-// What `illum` and `Tf` say and the others do not.
+// Applies what only `illum` and `Tf` say.
 static void judge_entry(struct mtl_reader *r, struct ir_material *m) {
     const struct mtl_entry *e = &r->entry;
     const struct illum_mode *mode = &illum_modes[e->illum];

@@ -1,5 +1,5 @@
 // MTL, the material files of OBJ meshes: Kd, map_Kd, Ks, Ns, Ni, d, Tr and illum become materials of the
-// scene language. Tf has no length with which its colour would belong to what is inside a body: it is
+// scene language. Tf comes without the length that would turn its colour into that of a body's inside: it is
 // reported.
 //
 //     diffuse_color Kd; albedo (1-t, 1 if Ks is not 0, max(Ks) if illum is 3..7, t) with t = 1-d
@@ -7,9 +7,9 @@
 //     map_Kd: an image times Kd, where that is grey, with -s, -o and -clamp; with others of its options a
 //     warning
 //
-// d wins over Tr if both are given. Of several materials of one name the first counts. What is in the file
-// and has no effect is a warning, one for each kind of statement, unless it would change nothing (Ke 0 0 0).
-// Values outside their range are cut, with a warning. Ownership: the arena's; names are copied. Thread
+// d wins over Tr if both are given. Of several materials with the same name, the first counts. Statements
+// without effect get a warning, one for each kind of statement, unless they would change nothing (Ke 0 0 0).
+// Values outside their range are clamped, with a warning. Ownership: the arena's; names are copied. Thread
 // safety: one call belongs to one thread.
 #ifndef GLINT_ASSETS_OBJ_READ_MTL_H
 #define GLINT_ASSETS_OBJ_READ_MTL_H

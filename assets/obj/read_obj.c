@@ -12,7 +12,7 @@
 enum {
     WITH_COLOR = 6, // numbers of a vertex
     CHUNK_BYTES = 1 << 18,
-    // Lines besides vertices, normals and faces that threads read: up to these, and one in so many bytes.
+    // Threads read lines other than vertices, normals and faces up to this many, plus one in so many bytes.
     OTHERS_FEW = 64,
     OTHER_BYTES_LEAST = 16,
 };
@@ -22,7 +22,7 @@ struct obj_reader {
     struct arena *scratch;
     struct polygons *obj;
     struct obj_lex lex;
-    bool refers_forward; // a face names what the file has not defined yet
+    bool refers_forward; // a face refers to something not defined yet
     bool is_full;        // a limit is exceeded: read no further
     bool is_quiet;       // faults are only noted
     bool is_faulty;
@@ -129,8 +129,8 @@ static void report_index(struct obj_reader *r, str word, int64_t index, uint32_t
                      (long long)index, count, things);
 }
 
-// One index at the cursor, as one from 0. Positive ones may name what follows later; `check_forward` checks
-// these.
+// One index at the cursor, converted to start from 0. Positive ones may refer to later lines; `check_forward`
+// checks these.
 static bool read_index(struct obj_reader *r, uint32_t count, const char *things, uint32_t *out) {
     const char *begin = r->lex.at;
     int64_t index;
@@ -266,10 +266,10 @@ static void read_line(struct obj_reader *r) {
         read_other(r, keyword);
 }
 
-// ---- indices of what was defined later
+// ---- indices that refer to later lines
 
 // Finds the corner in the text again: storing its place would waste memory in files without faults. Faces
-// come in the order of their lines, so that the search goes on from the line of the last one.
+// come in the order of their lines, so the search continues from the line of the last one.
 static void report_forward(struct obj_reader *r, const struct polygon_face *face, uint32_t number,
                            bool is_normal) {
     while (r->lex.line < face->line && !obj_lex_done(&r->lex))
@@ -314,7 +314,7 @@ static void check_forward(struct obj_reader *r) {
     }
 }
 
-// What only the whole file shows.
+// Faults that only the whole file shows.
 static void finish(struct obj_reader *r) {
     if (r->refers_forward)
         check_forward(r);
@@ -398,7 +398,7 @@ static void add_counts(struct obj_counts *sum, const struct obj_counts *counts) 
 }
 
 // Room for exactly what was counted, and where each chunk's part of it begins. false: it would be much more
-// than the sequential reader takes of a file that is not one of ours.
+// than the sequential reader takes for a file that is not ordinary.
 static bool make_room(struct obj_reader *r, struct chunks *chunks, struct obj_counts *sum) {
     struct polygons *obj = r->obj;
     for (uint32_t i = 0; i < chunks->count; i++) {
@@ -438,7 +438,7 @@ static void name_group(struct obj_reader *r, uint32_t begin, uint32_t end) {
         r->obj->faces.items[i].group = group;
 }
 
-// In the order of the file: sums, and the lines that only make sense in that order. false: one has a fault.
+// In the order of the file: the sums, and the lines that only make sense in order. false: one has a fault.
 static bool join_chunks(struct obj_reader *r, const struct chunks *chunks, uint32_t others) {
     struct polygons *obj = r->obj;
     for (uint32_t i = 0; i < chunks->count; i++) {

@@ -13,14 +13,14 @@
 // Reads file->text, on all processors. Faults are counted in file->errors; after one the result must not be
 // used.
 void read_obj(struct asset_file *file, struct arena *scratch, struct polygons *out);
-// Reads file->text for the coordinates of textures only (obj_coordinates.c).
+// Reads file->text for texture coordinates only (obj_coordinates.c).
 void read_obj_coordinates(struct asset_file *file, struct arena *scratch, struct textured_faces *out);
 
-// The two ways in which it does, with the same result to the bit; for tests and benches.
+// The two ways of reading, with bit-equal results; for tests and benches.
 // By one thread, from the first line to the last.
 void read_obj_in_order(struct asset_file *file, struct arena *scratch, struct polygons *out);
-// In pieces of about so many bytes, at least 1, on all processors. false: the file has something that only
-// the other way understands or reports, and nothing was reported.
+// In pieces of about this many bytes, at least 1, on all processors. false: the file has something that only
+// the other way understands or reports; nothing was reported.
 bool read_obj_in_chunks(struct asset_file *file, struct arena *scratch, size_t chunk_bytes,
                         struct polygons *out);
 

@@ -18,7 +18,7 @@ struct header_reader {
     struct arena *arena;
     struct ply_header *out;
     str text;
-    const char *line_end;  // what ends a line: that of the first
+    const char *line_end;  // the line end, as after the first line
     size_t at;             // the next line
     size_t begin, end;     // this line
     size_t word;           // in this line, the next word
@@ -36,7 +36,7 @@ static const char *line_end_of(str text) {
     return lf == cr + 1 ? "\r\n" : "\r";
 }
 
-// The next line; false: the text has no further one that ends.
+// The next line; false: the text has no further complete line.
 static bool next_line(struct header_reader *r) {
     const size_t length = strlen(r->line_end);
     r->begin = r->word = r->at;
@@ -168,7 +168,7 @@ static void read_line(struct header_reader *r) {
 
 // ---- the whole
 
-// Whether the form is binary, before anything is reported: what is shown depends on it.
+// Whether the form is binary, decided before anything is reported: how the file is shown depends on it.
 static void look_ahead(struct header_reader *r) {
     const struct header_reader start = *r;
     while (next_line(r) && r->at <= HEADER_BYTES_MOST) {
@@ -184,14 +184,14 @@ static void look_ahead(struct header_reader *r) {
 
 static void report_other(struct asset_file *file) {
     const enum mesh_format_id id = mesh_format_of_text(file->text);
-    file->is_binary = true; // perhaps: nothing of it is shown
+    file->is_binary = true; // perhaps it is: show none of its text
     if (asset_report_byte(file, DIAG_MESH_SYNTAX, 0, "a PLY file begins with a line 'ply'") &&
         id != MESH_FORMAT_COUNT)
         diag_help(file->input->sink, "this is %s: let its name end in %s", mesh_formats[id].called,
                   mesh_formats[id].endings[0]);
 }
 
-// A file cannot hold more elements than it has bytes for: in text each value takes a digit and what ends it,
+// A file cannot hold more elements than it has bytes for: in text each value takes a digit and a separator,
 // which the last one may lack.
 static void check_counts(struct header_reader *r) {
     uint64_t left = r->text.len - r->out->bytes + (r->out->form == PLY_TEXT);

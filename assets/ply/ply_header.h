@@ -1,18 +1,18 @@
-// The header of a PLY file (Greg Turk, "The PLY Polygon File Format", 1994): what follows it, and in which
+// The header of a PLY file (Greg Turk, "The PLY Polygon File Format", 1994): which data follows it, in which
 // form.
 //
-// Lines end with \n, \r\n or \r, as the first one does. Types have their names of then (uchar, float) or with
-// their sizes (uint8, float32). Elements and properties may have any name and any order. Errors: faults at
-// their line, counted in file->errors; a header that says more than the file has bytes for is one, so that
-// nobody allocates what it says. Ownership: lists are in the arena, names in the text. Thread safety: one
-// call belongs to one thread.
+// Lines end with \n, \r\n or \r, as the first one does. Types have their original names (uchar, float) or
+// those with sizes (uint8, float32). Elements and properties may have any name and any order. Errors: faults
+// at their line, counted in file->errors; a header that announces more than the file has bytes for is a
+// fault, so nobody allocates that much. Ownership: lists are in the arena, names in the text. Thread safety:
+// one call belongs to one thread.
 #ifndef GLINT_ASSETS_PLY_PLY_HEADER_H
 #define GLINT_ASSETS_PLY_PLY_HEADER_H
 
 #include "assets/file/asset_file.h"
 
 enum ply_type {
-    PLY_NONE, // as the type of a count: the property is not a list
+    PLY_NONE, // as a count's type: the property is not a list
     PLY_INT8,
     PLY_UINT8,
     PLY_INT16,

@@ -2,8 +2,9 @@
 // vertices whose coordinates (and normals) are floats and that have no lists; faces with one list, whose
 // length is a byte and whose items have four.
 //
-// What is read is the same as by the general way (read_ply.c), which takes all other files, and those with a
-// fault, to report it. Ownership: the caller's arrays. Thread safety: pieces belong to one thread each.
+// The result is the same as by the general way (read_ply.c), which takes all other files, and those with a
+// fault in order to report it. Ownership: the caller's arrays. Thread safety: pieces belong to one thread
+// each.
 #ifndef GLINT_ASSETS_PLY_PLY_PLAIN_H
 #define GLINT_ASSETS_PLY_PLY_PLAIN_H
 
@@ -16,7 +17,7 @@ enum {
 
 struct ply_plain_vertices {
     uint32_t stride;                     // bytes of a row
-    uint32_t offsets[PLY_PLAIN_COLUMNS]; // in it
+    uint32_t offsets[PLY_PLAIN_COLUMNS]; // offsets in the row
     bool has_normals, is_big;
     vec3 *positions, *normals;
 };
@@ -31,7 +32,7 @@ bool ply_plain_vertices(const struct ply_element *element, enum ply_form form, c
                         bool has_normals, struct ply_plain_vertices *out);
 bool ply_plain_faces(const struct ply_element *element, enum ply_form form, uint32_t list,
                      struct ply_plain_faces *out);
-// Rows [begin, end), which begin at `at`. false: there is a fault.
+// Reads rows [begin, end), which begin at `at`. false: there is a fault.
 bool ply_read_plain_vertices(const struct ply_plain_vertices *plain, const char *at, size_t begin,
                              size_t end);
 // The first of their corners is corners[item]; those have a normal each if `has_normals`.

@@ -148,8 +148,8 @@ struct ply_cursor ply_piece(const struct ply_extent *extent, size_t piece) {
 
 // ---- walking
 
-// Past the next row; *items of its list. In text nothing after the list's count is looked at but whether the
-// line is long enough for it.
+// Moves past the next row; *items is the length of its list. In text, only the list's count is read, and the
+// rest of the line checked to be long enough for it.
 static enum ply_status walk_row(struct ply_cursor *c, const struct ply_extent *extent, uint32_t *items) {
     const struct ply_element *element = extent->element;
     const bool is_text = c->form == PLY_TEXT;
@@ -190,8 +190,8 @@ static void report_row(struct asset_file *file, const struct ply_extent *extent,
                           STR_ARG(element->name), row + 1, element->count);
 }
 
-// Over rows that have one list with a length of one byte, and nothing else of varying length. Returns after
-// how many of them something is wrong, which the general way reports.
+// Walks over rows that have one list with a one-byte length, and nothing else of varying length. Returns how
+// many rows precede the first fault, which the general way reports.
 static uint32_t walk_plain(struct ply_cursor *cursor, struct ply_extent *extent) {
     const struct ply_element *element = extent->element;
     const uint32_t size = ply_type_bytes[element->properties.items[extent->list].type];

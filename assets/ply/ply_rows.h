@@ -1,10 +1,10 @@
 // The elements of a PLY file, row by row: where each begins, and its values, from text and from both binary
 // orders.
 //
-// In text a row is a line; empty lines are passed over. ply_walk finds where an element's rows are, and looks
-// only at what it needs for that; a row that was walked over is in the text with all that a binary file has
-// of it. Errors: of the walk, reported; of values, returned. Ownership: starts are in the arena. Thread
-// safety: a cursor belongs to one thread; what was walked is constant.
+// In text a row is a line; empty lines are passed over. ply_walk finds an element's rows, and reads only what
+// it needs for that; a binary row that was walked over is completely in the text. Errors: those of the walk
+// are reported, those of values returned. Ownership: starts are in the arena. Thread safety: a cursor belongs
+// to one thread; what was walked is constant.
 #ifndef GLINT_ASSETS_PLY_PLY_ROWS_H
 #define GLINT_ASSETS_PLY_PLY_ROWS_H
 
@@ -28,10 +28,10 @@ struct ply_extent {
     struct ply_start {
         const char *at;
         uint32_t line;
-        uint32_t items;  // of the list in all rows before
-    } * starts;          // of each PLY_PIECE rows
-    uint64_t items;      // of the list `list`, in all rows
-    uint32_t items_most; // in one
+        uint32_t items;  // items of the list in all rows before
+    } * starts;          // one for each PLY_PIECE rows
+    uint64_t items;      // items of the list `list`, in all rows
+    uint32_t items_most; // most in one row
     uint32_t list;       // the property whose items are counted; PLY_ABSENT: none
 };
 
@@ -41,17 +41,17 @@ enum ply_status {
     PLY_BAD,  // not a number: ply_number says why
 };
 
-// Finds the rows of extent->element, whose list `extent->list` counts, from the cursor on, and moves it past
-// them. false: the file ends within them, or a count is none; it was reported.
+// Finds the rows of extent->element from the cursor on, counts the items of its list `extent->list`, and
+// moves the cursor past the rows. false: the file ends within them, or a count is invalid; it was reported.
 bool ply_walk(struct asset_file *file, struct arena *arena, struct ply_cursor *cursor,
               struct ply_extent *extent);
 // The cursor at the first row of a piece.
 struct ply_cursor ply_piece(const struct ply_extent *extent, size_t piece);
 // At the beginning of a row: passes over empty lines.
 void ply_begin_row(struct ply_cursor *cursor);
-// At its end: past the end of the line. false: words are left in it.
+// At the end of a row: moves past the end of the line. false: words are left in it.
 bool ply_end_row(struct ply_cursor *cursor);
-// The next value; *why is why it is bad, in text.
+// The next value; in text, *why is why it is bad.
 enum ply_status ply_number(struct ply_cursor *cursor, enum ply_type type, double *value,
                            enum number_status *why);
 // The number of a list's items. PLY_BAD: it is not a whole number of at least 0.

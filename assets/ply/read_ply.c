@@ -16,7 +16,7 @@ enum {
     SHOWN_MOST = 64,
 };
 
-// What is read of the rows of elements: by threads that only note that there is a fault, or by one that
+// Reads the rows of elements: with threads that only note that there is a fault, or with one thread that
 // reports.
 struct ply_reading {
     struct asset_file *file;
@@ -24,12 +24,12 @@ struct ply_reading {
     struct polygons *out;
     struct ply_header header;
     struct ply_extent *extents;                         // of the header's elements
-    const struct ply_extent *vertices, *faces, *strips; // without rows if there are none
-    uint8_t *column_of;          // of each property of a vertex: what it is; COLUMNS: nothing that is read
+    const struct ply_extent *vertices, *faces, *strips; // without rows if the file has none
+    uint8_t *column_of;          // the column of each vertex property; COLUMNS: one that is not read
     bool has_normals;            // of vertices
     uint32_t texcoord;           // the property of a face; PLY_ABSENT
     struct ir_pair *coordinates; // of textures, by vertex or by corner
-    bool *has_texture;           // by face: it has coordinates of its own
+    bool *has_texture;           // by face: whether it has its own coordinates
     bool is_quiet;
     atomic_bool is_faulty;
 };
@@ -46,7 +46,7 @@ static bool is_told(struct ply_reading *r) {
     return !r->is_quiet;
 }
 
-// A value that is read, and what is wrong with it.
+// Reads a value; reports what is wrong with it.
 static void report_value(struct ply_reading *r, diag_code code, const char *begin, const char *end,
                          double value, const char *what) {
     if (!is_told(r))
@@ -104,7 +104,8 @@ static void read_piece(void *context, size_t begin, size_t end) {
     }
 }
 
-// All rows of an element, on all processors; if there is a fault again, in order, to report it. false: then.
+// Reads all rows of an element, on all processors; if there is a fault, again in order to report it. false:
+// there was one.
 static bool read_rows(struct ply_reading *r, const struct ply_extent *extent,
                       void (*row)(struct ply_reading *r, struct ply_cursor *c, uint32_t row,
                                   uint32_t *item)) {
@@ -129,7 +130,7 @@ static enum ply_status skip_property(struct ply_cursor *c, const struct ply_prop
     return status == PLY_OK && !ply_skip(c, property->type, count) ? PLY_ENDS : status;
 }
 
-// A coordinate, or one of a texture. false: the rest of the row cannot be read.
+// A coordinate, or a texture coordinate. false: the rest of the row cannot be read.
 static bool read_coordinate(struct ply_reading *r, struct ply_cursor *c, enum ply_type type, double *value) {
     const char *begin = c->at;
     enum number_status why = NUMBER_OK;
@@ -215,7 +216,7 @@ static bool read_corners(struct ply_reading *r, struct ply_cursor *c, const stru
     uint32_t count = 0, vertex;
     const struct ply_cursor before = *c;
     if (ply_count(c, list->count, &count) != PLY_OK)
-        return false; // it was walked over
+        return false; // cannot happen: the row was walked over
     if (count < 3)
         report_row(r, DIAG_MESH_FACE, &before, "a face with fewer than three corners");
     for (uint32_t i = 0; i < count; i++) {
@@ -251,8 +252,8 @@ struct strip {
     uint32_t length;  // so far
 };
 
-// Every vertex after the second makes a triangle with the two before it, every other one turned round. Those
-// that repeat a vertex only lead from one strip to another.
+// Every vertex after the second makes a triangle with the two before it; every other triangle is turned
+// round. Those that repeat a vertex only lead from one strip to another.
 static void add_to_strip(struct ply_reading *r, struct strip *strip, uint32_t vertex, uint32_t line) {
     const uint32_t a = strip->last[0], b = strip->last[1];
     strip->last[0] = b;
@@ -351,7 +352,7 @@ static void find_texcoord(struct ply_reading *r) {
         r->texcoord = PLY_ABSENT;
 }
 
-// Where the rows of every element are, in the order of the file.
+// Finds the rows of every element, in the order of the file.
 static bool walk(struct ply_reading *r) {
     static const char *const indices[] = {"vertex_indices", "vertex_index", NULL};
     struct ply_cursor c = {r->file->text.ptr + r->header.bytes, r->file->text.ptr + r->file->text.len,
@@ -462,7 +463,7 @@ static void read_plain_faces(void *context, size_t begin, size_t end) {
                                  r->faces->starts[begin / PLY_PIECE].items, r->out));
 }
 
-// Each is read in the general way if it is not plain, or if there is a fault, which that reports.
+// Each is read in the general way if it is not plain, or if there is a fault, which the general way reports.
 static void read_vertices_and_faces(struct ply_reading *r) {
     struct plain_work w = {.r = r};
     bool is_plain =
@@ -502,7 +503,7 @@ void read_ply(struct asset_file *file, struct arena *scratch, struct polygons *o
     out->is_binary = file->is_binary;
 }
 
-// ---- coordinates of textures
+// ---- texture coordinates
 
 static void read_vertex_texture(struct ply_reading *r, struct ply_cursor *c, uint32_t row, uint32_t *item) {
     const struct ply_element *element = r->vertices->element;
@@ -520,7 +521,7 @@ static void read_vertex_texture(struct ply_reading *r, struct ply_cursor *c, uin
     r->coordinates[row] = (struct ir_pair){value[TEXTURE], value[TEXTURE + 1]};
 }
 
-// Two numbers for each corner; where they are not, the face has none.
+// Two numbers for each corner; otherwise the face has none.
 static void read_face_texture(struct ply_reading *r, struct ply_cursor *c, uint32_t row, uint32_t *item) {
     const struct ply_element *element = r->faces->element;
     const uint32_t first = r->out->faces.items[row].first;
@@ -554,7 +555,7 @@ static bool has_vertex_texture(const struct ply_reading *r) {
     return (found >> TEXTURE & 3) == 3;
 }
 
-// Whether there are coordinates; then all have been read.
+// Whether there are coordinates; if so, all have been read.
 static bool read_texture(struct ply_reading *r, struct textured_faces *out) {
     const bool by_corner = r->texcoord != PLY_ABSENT;
     if (!by_corner && !has_vertex_texture(r))

@@ -14,7 +14,7 @@ enum {
     TEXT_BYTES = 80,
     FACET_BYTES = 50, // a normal, three corners, two bytes of attributes
     NORMAL_BYTES = 12,
-    AHEAD_BYTES = 2048, // what is asked for while facets are read
+    AHEAD_BYTES = 2048, // how far ahead is prefetched while facets are read
 };
 
 static uint32_t load32(const char *at) {
@@ -22,9 +22,9 @@ static uint32_t load32(const char *at) {
     return (uint32_t)b[3] << 24 | (uint32_t)b[2] << 16 | (uint32_t)b[1] << 8 | b[0];
 }
 
-// ---- which of the two
+// ---- ascii or binary
 
-// A text has no byte that no text has, as far as a binary header and the beginning of its facets go.
+// Whether all bytes, as far as a binary header and the beginning of its facets go, may occur in text.
 static bool looks_like_text(str text) {
     const size_t most = 4 * HEAD_BYTES;
     for (size_t i = 0; i < text.len && i < most; i++) {
@@ -48,14 +48,14 @@ struct binary {
     struct polygons *out;
     struct weld weld;
     uint32_t count;  // of facets
-    uint32_t colors; // of them have attributes
+    uint32_t colors; // how many facets have attributes
 };
 
 static bool is_fine(float coordinate) {
     return fabsf(coordinate) <= (float)MESH_COORDINATE_MAX;
 }
 
-// The first coordinate that is wrong in each corner.
+// Reports the first coordinate that is wrong in each corner.
 static void report_facet(struct binary *b, uint32_t facet, const char *at) {
     for (int i = 0; i < WELD_FLOATS; i++) {
         const char *place = at + NORMAL_BYTES + 4 * (size_t)i;

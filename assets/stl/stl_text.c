@@ -13,7 +13,7 @@ enum {
     VERTICES_GUESS = 1024,
 };
 
-// What a line may be, from where it is.
+// The kinds of line that may be at a place.
 enum place {
     OUTSIDE,
     IN_SOLID,
@@ -87,7 +87,7 @@ static void begin_solid(struct text_reader *r) {
     r->at = r->end;
 }
 
-// That of the solid; made by its first facet.
+// The group of the solid; made by its first facet.
 static uint32_t current_group(struct text_reader *r) {
     uint32_t *number = str_map_at(&r->groups, r->name);
     if (*number == 0) {
@@ -123,7 +123,7 @@ static void end_facet(struct text_reader *r, str word) {
     fits(r, word, corners);
 }
 
-// What the line is, if it may be where it is. false: it may not.
+// The kind of the line. false: it is not allowed there.
 static bool take_line(struct text_reader *r, str word) {
     static const struct {
         const char *word;
@@ -151,7 +151,7 @@ static void read_line(struct text_reader *r) {
     if (!take_line(r, word)) {
         snprintf(what, sizeof what, "is not expected here: this is the place for %s", expected[r->place]);
         report_word(r, DIAG_MESH_SYNTAX, word, what);
-        r->is_full = true; // whatever follows is in the wrong place too
+        r->is_full = true; // everything after it is in the wrong place too
         return;
     }
     if (is_word(word, "solid"))
@@ -191,7 +191,7 @@ void read_stl_text(struct asset_file *file, struct arena *scratch, struct polygo
                           r.place == IN_SOLID ? "solid: 'endsolid' is missing" : "facet");
     else if (out->faces.count == 0)
         asset_report_line(file, DIAG_MESH_EMPTY, 0, "the mesh has no faces");
-    // Programs write all kinds of things after the word: it is a name where it tells solids from each other.
+    // Programs write all kinds of things after the word: it counts as a name if it distinguishes solids.
     if (out->groups.count == 1)
         out->groups.items[0] = (struct mesh_group){.name = STR("")};
 }

@@ -6,7 +6,7 @@
 enum {
     SLOTS_LEAST = 64,
     FULL_OF = 3, // two thirds of the slots are used at most
-    SPARE = 64,  // of so many vertices, room for one more does not count
+    SPARE = 64,  // out of so many vertices, room for one more does not matter
 };
 
 // A position as bits: equal numbers are equal bits where none is -0 or NaN.
@@ -63,7 +63,7 @@ void weld_init(struct weld *weld, struct arena *arena, struct polygons *out, uin
         count *= 2;
     make_slots(weld, count);
     for (int i = 0; i < WELD_FLOATS; i++)
-        weld->batches[0].positions[i] = NAN; // no corner's
+        weld->batches[0].positions[i] = NAN; // equals no corner
     out->vertices.items = ARENA_ARRAY(arena, vec3, expected);
     out->vertices.capacity = expected;
 }
@@ -101,8 +101,8 @@ static bool are_equal(const float *a, const float *b) {
     return x.xy == y.xy && x.z == y.z;
 }
 
-// How many corners before this one, in the facet before, is the same one; 0: it is not there. Hashes are
-// compared without branches, since which one it is cannot be foreseen.
+// How many corners back, in the facet before, the same corner is; 0: it is not there. Hashes are compared
+// without branches, since which one matches cannot be predicted.
 static uint32_t link_of(const struct weld_batch *batch, uint32_t corner, uint32_t before) {
     const uint64_t *hashes = batch->hashes;
     const uint64_t hash = hashes[corner];

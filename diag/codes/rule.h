@@ -1,4 +1,4 @@
-// Codes of diagnostics whose first digit is 4: scenes that cannot be drawn, or hardly as they are meant.
+// Codes of diagnostics whose first digit is 4: scenes that cannot be drawn, or hardly as intended.
 #ifndef GLINT_DIAG_CODES_RULE_H
 #define GLINT_DIAG_CODES_RULE_H
 

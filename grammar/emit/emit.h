@@ -14,10 +14,10 @@ void emit_json_schema(struct strbuf *out);
 void emit_relaxng(struct strbuf *out);
 // RELAX NG in its compact syntax: the same language.
 void emit_relaxng_compact(struct strbuf *out);
-// XML Schema 1.0 for the XML spelling: for completion; it accepts more than scenes.
+// XML Schema 1.0 for the XML spelling, for completion; it also accepts texts that are not scenes.
 // The reference page, docs/reference.md.
 void emit_markdown(struct strbuf *out);
-// What other tools have and what to do instead, docs/limits.md.
+// The features of other tools and what to do instead, docs/limits.md.
 void emit_limits(struct strbuf *out);
 // The page of all codes of messages, docs/codes.md.
 void emit_codes(struct strbuf *out);

@@ -204,7 +204,7 @@ static json_t *row_schema(const struct schema_element *schema, uint32_t i) {
     if (row->many == SCHEMA_FIXED)
         value = json_pack("{s:s, s:o, s:i, s:i}", "type", "array", "items", value, "minItems",
                           (int)row->fixed_count, "maxItems", (int)row->fixed_count);
-    // Draft-07 ignores what is written beside a $ref.
+    // Draft-07 ignores what is next to a $ref.
     if (json_object_get(value, "$ref"))
         value = json_pack("{s:[o]}", "allOf", value);
     json_object_set_new(value, "description", json_string(row->doc));
@@ -222,7 +222,7 @@ static json_t *required_alone(const struct schema_row *row) {
     return json_pack("{s:[s]}", "required", row->name);
 }
 
-// Appends to `rules` what makes the rows of choice `c` exclude each other.
+// Appends to `rules` the rules by which the rows of choice `c` exclude each other.
 static void add_choice(const struct schema_element *schema, uint8_t c, json_t *rules) {
     enum schema_choice_rule rule = schema->choices[c - 1].rule;
     json_t *single = json_array();
@@ -244,7 +244,7 @@ static void add_choice(const struct schema_element *schema, uint8_t c, json_t *r
     json_decref(pairs);
 }
 
-// `camera: {...}` beside `cameras: {...}`: the same child under its own name, and never both.
+// `camera: {...}` instead of `cameras: {...}`: the same child under its own name, never both.
 static void add_single(const struct schema_element *schema, uint32_t i, json_t *properties, json_t *rules) {
     const struct schema_row *row = &schema->rows[i];
     struct strbuf doc;

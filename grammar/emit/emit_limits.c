@@ -72,7 +72,7 @@ static bool begins_chapter(const struct concept *concept) {
     return concept == concepts || strcmp(concept[-1].chapter, concept->chapter) != 0;
 }
 
-// Rows of one title are one section: the first one's text, and the words of all.
+// Rows with the same title form one section: the first row's text, and the words of all.
 static bool begins_section(const struct concept *concept) {
     return concept == concepts || !concept->title || strcmp(concept[-1].title, concept->title) != 0;
 }
@@ -92,8 +92,8 @@ static void put_contents(struct strbuf *out) {
     strbuf_cstr(out, "\n- [How large a scene may be](#how-large-a-scene-may-be)\n\n");
 }
 
-// A clause as a sentence; names in quotes are code. An apostrophe has a letter before it, and none is inside
-// quotes.
+// A clause as a sentence; names in quotes are code. An apostrophe has a letter before it, and none occurs
+// inside quotes.
 static void put_sentence(struct strbuf *out, const char *clause) {
     bool quoted = false;
     for (const char *c = clause; *c; c++) {

@@ -20,7 +20,7 @@ struct emit_lines {
 // The indentation of a line.
 void emit_indent(const struct emit_lines *w);
 void emit_line(const struct emit_lines *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
-// A start tag on a line, and what follows is deeper; the end tag on a line.
+// A start tag on its own line, with the lines after it deeper; an end tag on its own line.
 void emit_open(struct emit_lines *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void emit_close(struct emit_lines *w, const char *tag);
 

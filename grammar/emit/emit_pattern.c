@@ -8,7 +8,7 @@ enum {
 
 struct builder {
     struct arena *arena;
-    struct pattern spare; // what is appended there when memory has run out is not printed
+    struct pattern spare; // takes what is appended after memory has run out; never printed
     bool failed;
 };
 
@@ -95,7 +95,7 @@ static void add_components(struct builder *b, struct pattern *parent, const stru
 
 // ---- elements
 
-// What is inside the element of a row with a child: its rows, or only the components of its short row.
+// The contents of the element of a row with a child: its rows, or only the components of its short row.
 static void add_content(struct builder *b, struct pattern *parent, const struct schema_row *row) {
     const int only = schema_short_row(row->child);
     const int key = row->many == SCHEMA_NAMED_MAP ? schema_key_row(row->child) : -1;

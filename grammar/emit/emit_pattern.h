@@ -1,5 +1,5 @@
-// What elements of the XML spelling hold, as patterns in the sense of RELAX NG: made from the table, in one
-// walk, for every schema that prints them. Private to this folder.
+// The contents of XML elements as patterns in the sense of RELAX NG: made from the table, in one walk, for
+// every schema that prints them. Private to this folder.
 //
 // Ownership: patterns live while they are printed. Errors: only lack of memory; check `out->failed`.
 // Thread safety: pure except for `out`.
@@ -15,7 +15,7 @@ enum pattern_kind {
     PATTERN_OPTIONAL,   // the only child, or nothing
     PATTERN_MANY,       // the only child, any number of times
     PATTERN_CHOICE,     // one of the children
-    PATTERN_GROUP,      // the children in their order, all of them `times` times
+    PATTERN_GROUP,      // the children in order, the whole group `times` times
     PATTERN_CONTENT,    // what the table's element `name` holds
     // Values of attributes.
     PATTERN_NUMBER, // of the range `name`

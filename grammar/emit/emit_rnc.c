@@ -105,7 +105,7 @@ static void print_inline(struct emit_lines *w, const struct pattern *p) {
     }
 }
 
-// ---- on lines of their own; the last one is left open for what follows
+// ---- on lines of their own; the last one has no line end yet
 
 static void print(struct emit_lines *w, const struct pattern *p);
 

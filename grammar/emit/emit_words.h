@@ -7,7 +7,7 @@
 #include "core/strbuf.h"
 #include "grammar/schema.h"
 
-// What the value is: "number", "vector x y z", "one of clip, normalize", "list of lights".
+// The kind of value: "number", "vector x y z", "one of clip, normalize", "list of lights".
 void emit_type_words(const struct schema_row *row, struct strbuf *out);
 // Range and unit: "greater than 0 and less than 180, degrees"; nothing if neither says anything.
 void emit_range_words(const struct schema_row *row, struct strbuf *out);

@@ -31,7 +31,7 @@ static void put(struct explainer *e, const char *style, const char *text) {
         strbuf_cstr(e->out, plain);
 }
 
-// Words in lines of at most EXPLAIN_WIDTH columns.
+// Wraps words into lines of at most EXPLAIN_WIDTH columns.
 static void paragraph(struct explainer *e, uint32_t indent, const char *text) {
     size_t column = 0;
     str rest = str_from(text);
@@ -355,7 +355,7 @@ static void put_snake(struct strbuf *out, str what) {
     }
 }
 
-// Something that other tools have.
+// A feature that other tools have.
 static bool explain_concept(struct explainer *e, str what) {
     struct strbuf text;
     strbuf_init(&text);
@@ -375,7 +375,7 @@ static bool explain_concept(struct explainer *e, str what) {
     return concept != NULL;
 }
 
-// What other programs call `what`: explained where it is one attribute, else they are listed.
+// What other programs call `what`: explained if it is one attribute, else all are listed.
 static bool explain_other_word(struct explainer *e, str what, bool *known) {
     const struct schema_element *last = NULL;
     unsigned count = 0;
@@ -400,7 +400,7 @@ static bool explain_other_word(struct explainer *e, str what, bool *known) {
     return false;
 }
 
-// An attribute without its element: explained where only one has it, else the elements are listed.
+// An attribute without its element: explained if only one element has it, else the elements are listed.
 static bool explain_alone(struct explainer *e, str what, bool *known) {
     int row = -1;
     const struct schema_element *only = find_alone(what, &row);
@@ -423,7 +423,7 @@ static bool explain_alone(struct explainer *e, str what, bool *known) {
     return false;
 }
 
-// The nearest name of all that can be explained.
+// The nearest of all names that can be explained.
 static str suggest(str what, struct arena *arena) {
     struct nearest search = nearest_begin(what);
     bool dotted = memchr(what.ptr, '.', what.len) != NULL;

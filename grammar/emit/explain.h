@@ -1,9 +1,9 @@
-// `glint explain CODE|element[.attribute]`: what the diagnostics' list and the table say, as text.
+// `glint explain CODE|element[.attribute]`: the entries of the diagnostics' list and of the table, as text.
 //
 // `glint explain --list [CODE]`: the codes, a line each.
 // Codes: title, meaning, remedy, and where they can occur. Elements: every attribute with both spellings,
-// and an example in both. Attributes: type, range, unit, default, words. What other tools
-// have (grammar/concept.h): what to do instead. Nothing here is written by hand.
+// and an example in both. Attributes: type, range, unit, default, words. Features of other tools
+// (grammar/concept.h): what to do instead. Nothing here is written by hand.
 // Thread safety: pure except for `out`.
 #ifndef GLINT_GRAMMAR_EMIT_EXPLAIN_H
 #define GLINT_GRAMMAR_EMIT_EXPLAIN_H

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 enum {
-    PAIRS_MAX = 250000 // that are compared one by one; beyond that, the rest pairs in order
+    PAIRS_MAX = 250000 // pairs compared one by one; beyond that, the rest pairs in order
 };
 
 void ir_align_init(struct ir_align *align, struct arena *arena, uint32_t a_count, uint32_t b_count) {
@@ -98,7 +98,7 @@ void ir_align_rest(struct ir_align *align, ir_align_likeness *likeness, void *co
     }
 }
 
-// The longest increasing run of partners stays in place (Fredman 1975: by the least end of a run of each
+// The longest increasing run of partners stays in place (Fredman 1975: keep the least end of the runs of each
 // length).
 void ir_align_moved(const struct ir_align *align, bool *moved) {
     uint32_t *ends = ARENA_ARRAY(align->arena, uint32_t, align->a_count + 1);

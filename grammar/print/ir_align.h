@@ -18,7 +18,7 @@ struct ir_align {
 void ir_align_init(struct ir_align *align, struct arena *arena, uint32_t a_count, uint32_t b_count);
 // Pairs free entries whose keys are equal, in order; empty keys pair with nothing.
 void ir_align_keys(struct ir_align *align, const str *a_keys, const str *b_keys);
-// Pairs the free entries that are left by how alike they are. `likeness` returns a number from 0 (nothing in
+// Pairs the remaining free entries by how alike they are. `likeness` returns a number from 0 (nothing in
 // common) to 1; below a third two entries pair only if each is the last one left in its list.
 typedef double ir_align_likeness(void *context, uint32_t a, uint32_t b);
 void ir_align_rest(struct ir_align *align, ir_align_likeness *likeness, void *context);

@@ -13,14 +13,14 @@ struct differ {
     const struct ir_diff_side *a, *b;
     struct arena *arena;
     struct ir_changes *changes;
-    bool quiet;     // only whether anything differs is asked for
-    bool different; // something did
+    bool quiet;     // only asks whether anything differs
+    bool different; // something differed
     struct {
         struct rename {
             str before, after;
         } * items;
         uint32_t count, capacity;
-    } renames; // of what references name
+    } renames; // renames of the things that references name
 };
 
 // One element in both scenes.
@@ -70,7 +70,7 @@ static str join_path(struct differ *d, str path, str key) {
     return path.len ? arena_format(d->arena, "%.*s.%.*s", STR_ARG(path), STR_ARG(key)) : key;
 }
 
-// The element's own path refers to its short row.
+// The element's own path stands for its short row.
 static str row_path(struct differ *d, const struct schema_element *schema, uint32_t i, str path) {
     bool is_short = schema_short_row(schema) == (int)i && path.len;
     return is_short ? path : join_path(d, path, str_from(schema_yaml_key(&schema->rows[i])));
@@ -166,7 +166,7 @@ static void diff_reference(struct differ *d, const struct pair *p, uint32_t i) {
     }
 }
 
-// Which rows of choices the two elements took; equal for equal ones.
+// Which choice rows the two elements took; equal for equal choices.
 static bool same_choices(const struct schema_element *schema, const void *a, const void *b) {
     for (uint32_t i = 0; i < schema->row_count; i++)
         if (ir_walk_taken(schema, &schema->rows[i], a) != ir_walk_taken(schema, &schema->rows[i], b))
@@ -177,7 +177,7 @@ static bool same_choices(const struct schema_element *schema, const void *a, con
 static void diff_element(struct differ *d, const struct pair *p, uint32_t i) {
     const struct schema_row *row = &p->schema->rows[i];
     const char *a = schema_field_const(row, p->a), *b = schema_field_const(row, p->b);
-    // A colour that becomes a checker is one change, not two.
+    // A colour that becomes a checker counts as one change, not two.
     if (schema_short_row(row->child) >= 0 && !same_choices(row->child, a, b)) {
         add_row(d, p, i, IR_CHANGED);
         return;

@@ -39,7 +39,7 @@ struct ir_changes {
 struct ir_diff_side {
     const struct ir_scene *scene; // merged and without errors
     const struct ir_origin *origin;
-    // The file that a path names, in a form that is the same for every path of one file; `at` is where the
+    // The file that a path names, in a form that is the same for all paths to one file; `at` is where the
     // path is written.
     str (*file)(void *context, struct arena *arena, span at, str path);
     void *context;

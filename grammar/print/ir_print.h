@@ -1,11 +1,10 @@
 // The IR as text: the canonical dump, and the writers of whole files. All of them walk the table.
 //
-// What is written is what the file wrote (head.written; what is poisoned too), in table order, lists in
-// their own order; anonymous materials are written inside the body that uses them; a list or map without
-// entries is not written. Numbers have the shortest digits that read back, one number replaces equal
-// components of a colour or scale, and text that YAML 1.1 or 1.2 would read as something else is quoted.
-// Errors: only lack of memory; check `out->failed` once at the end. Ownership: the caller's.
-// Thread safety: pure except for `out`.
+// The writers write what the file wrote (head.written, poisoned rows too), in table order, lists in their own
+// order; anonymous materials are written inside the body that uses them; a list or map without entries is not
+// written. Numbers have the shortest digits that read back, one number replaces equal components of a colour
+// or scale, and text that YAML 1.1 or 1.2 would read as something else is quoted. Errors: only lack of
+// memory; check `out->failed` once at the end. Ownership: the caller's. Thread safety: pure except for `out`.
 #ifndef GLINT_GRAMMAR_PRINT_IR_PRINT_H
 #define GLINT_GRAMMAR_PRINT_IR_PRINT_H
 
@@ -24,9 +23,9 @@ struct ir_write_options {
 // the files wrote the same, in whichever spelling. No places, no comments. It reads back as a scene.
 void ir_dump(const struct ir_scene *scene, struct strbuf *out);
 
-// Whole files. `scene` is only one file (ir_file_origin.scene); from `origin` and `sources` come the
-// comments before an entry and the editor's schema line, respelled where the other language spells them
-// differently. Both may be NULL: then there are none.
+// Whole files. `scene` is only one file (ir_file_origin.scene); `origin` and `sources` provide the comments
+// before an entry and the editor's schema line, respelled where the other language spells them differently.
+// Both may be NULL: then there are none.
 void ir_write_yaml(const struct ir_scene *scene, const struct ir_origin *origin,
                    const struct source_set *sources, struct ir_write_options options, struct strbuf *out);
 void ir_write_xml(const struct ir_scene *scene, const struct ir_origin *origin,

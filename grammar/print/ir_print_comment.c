@@ -78,7 +78,8 @@ static bool is_from_xml(const struct print_places *places, uint32_t source) {
     return false;
 }
 
-// Up to what either spelling takes for a line end: what follows one would be content of a YAML scene.
+// Takes text up to what either spelling treats as a line end: text after one would be content of a YAML
+// scene.
 static str next_line(str *rest) {
     size_t end = 0;
     while (end < rest->len && !str_yaml_break_length(*rest, end))
@@ -94,7 +95,7 @@ static str trim_end(str s) {
     return s;
 }
 
-// Between two dashes are `count` backslashes; one more or one less is written.
+// Between two dashes there are `count` backslashes; one more or one less is written.
 static void put_dashes(struct strbuf *out, str text, bool escape) {
     for (size_t i = 0; i < text.len; i++) {
         strbuf_char(out, text.ptr[i]);
@@ -249,7 +250,7 @@ static str behind(str line, str mark) {
     return (str){"", 0};
 }
 
-// A comment has one line: an address of several would go on as content.
+// A comment has one line: a longer address would continue as content.
 static bool is_one_line(str text) {
     for (size_t at = 0; at < text.len; at++)
         if (str_yaml_break_length(text, at))

@@ -1,4 +1,5 @@
-// Comments and the editor's schema line, from one spelling to the other. Part of the writers (ir_print.h).
+// Converts comments and the editor's schema line from one spelling to the other. Part of the writers
+// (ir_print.h).
 //
 // `# text` is `<!-- text -->` and back. XML forbids `--` inside a comment: there a backslash is put between
 // the two (`-\-`, and one more for each that was there), which YAML's writer removes again.
@@ -11,17 +12,17 @@
 #include "grammar/ir_origin.h"
 #include "grammar/schema.h"
 
-// Where the writers find what is kept beside the IR; both NULL: nothing is.
+// Where the writers find what is kept outside the IR; both NULL: nothing is kept.
 struct print_places {
     const struct ir_origin *origin;
     const struct source_set *sources;
-    span last; // the comments written last, so that a place known twice is written once
+    span last; // the comments written last, so that a place recorded twice is written once
 };
 
 span print_comments_of_row(const struct print_places *places, const struct ir_head *head, uint32_t row);
 span print_comments_of_element(const struct print_places *places, const struct ir_head *head);
-// Of any row. In XML a list has no key of its own, and comments before an item are that item's: SPAN_NONE if
-// the row's comments are those of an item.
+// The comments of any row. In XML a list has no key of its own, and comments before an item belong to the
+// item: SPAN_NONE if the row's comments are an item's.
 span print_comments_of_list_row(const struct print_places *places, const struct schema_element *schema,
                                 uint32_t i, const void *element);
 // Whether there are comments before the row, or before anything inside it.

@@ -24,7 +24,7 @@ struct xml_node {
     const char *tag;
     const struct schema_element *schema;
     const void *element;
-    const char *unnamed; // the name that is not written; NULL: every name is
+    const char *unnamed; // the name that is not written; NULL: write every name
 };
 
 static bool value_is_attribute(const struct xml_writer *w, const struct schema_row *row, const void *field) {
@@ -218,7 +218,7 @@ static void put_comments(struct xml_writer *w, span comments, uint32_t indent) {
         print_xml_comments(&w->places, comments, indent, w->out);
 }
 
-// Comments before the element and, since attributes cannot have any, before what became one.
+// Comments before the element and, since attributes cannot have comments, before rows that became attributes.
 static void node_comments(struct xml_writer *w, const struct xml_node *node, uint32_t indent) {
     const struct ir_head *head = ir_walk_head(node->element);
     put_comments(w, print_comments_of_element(&w->places, head), indent);
@@ -234,7 +234,7 @@ static void node_comments(struct xml_writer *w, const struct xml_node *node, uin
     }
 }
 
-// Whether there are comments before what becomes a child of the element, so that it needs lines of its own.
+// Whether there are comments before a row that becomes a child element, so that it needs lines of its own.
 static bool child_has_comments(const struct xml_writer *w, const struct xml_node *node) {
     for (uint32_t i = 0; i < node->schema->row_count; i++)
         if (ir_walk_written(node->schema, i, node->element) &&

@@ -175,7 +175,7 @@ static size_t begin_flow(struct yaml_writer *w) {
 
 static bool end_flow(struct yaml_writer *w, size_t column) {
     str text = strbuf_view(&w->flow);
-    // A line of braces is harder to read than a line of text: it is given less room.
+    // A line of braces is harder to read than a line of text, so it gets less room.
     if (w->flow.failed || column + utf8_count(text) > w->width * 4 / 5)
         return false;
     strbuf_char(w->out, ' ');
@@ -184,7 +184,7 @@ static bool end_flow(struct yaml_writer *w, size_t column) {
     return true;
 }
 
-// What follows "key:" or "-": on the same line if it is short enough, else below.
+// Writes what follows "key:" or "-": on the same line if it is short enough, else below.
 static void block_body(struct yaml_writer *w, const struct schema_element *schema, const void *element,
                        uint32_t indent, bool in_sequence) {
     int only = ir_walk_short(w->scene, schema, element);

@@ -25,10 +25,10 @@ struct bind_texts {
     str items[BIND_TEXTS];
 };
 
-// The keys of the entries of one list.
+// The keys of one list's entries.
 struct bind_list_keys {
     const void *list;
-    uint32_t count;     // of its entries that are in the map
+    uint32_t count;     // how many of its entries are in the map
     struct str_map map; // 1 + index
 };
 
@@ -93,7 +93,7 @@ static inline struct bind_subject bind_subject(const struct bind_frame *frame, c
 static inline bool bind_is_bad(const struct bind_context *context, tree_index node) {
     return (tree_node(context->tree, node)->flags & TREE_BAD) != 0;
 }
-// Whether the reader has reported the node, or broke off in it: its value cannot be judged.
+// Whether the reader has reported the node, or broke off in it, so that its value cannot be judged.
 static inline bool bind_is_known(const struct bind_context *context, tree_index node) {
     return (tree_node(context->tree, node)->flags & (TREE_BAD | TREE_CUT)) != 0;
 }
@@ -135,7 +135,7 @@ struct bind_entries {
     uint32_t count, capacity;
 };
 
-// What a name that an element does not have was meant to be, if that is clear.
+// The probable meaning of a name that the element does not have, if that is clear.
 struct bind_meant {
     enum {
         BIND_MEANT_NOTHING,
@@ -152,9 +152,9 @@ struct ir_scene *bind_new_scene(struct bind_context *context);
 // The scene of only this tree; NULL if the tree is not a scene, or one of another version (reported).
 struct ir_scene *bind_file(struct bind_context *context);
 
-// bind_element.c: the only recursive file of the binder; it calls those below, and none of them calls it.
-// Binds all rows that `node` has into frame->memory, and checks that what is required is there. false: the
-// node does not have the shape of the element (reported, or known to the reader).
+// bind_element.c: the only recursive file of the binder; it calls the files below, and none of them calls it.
+// Binds all rows of `node` into frame->memory, and checks that required ones exist. false: the node does not
+// have the shape of the element (reported, or known to the reader).
 bool bind_element(struct bind_context *context, struct bind_frame *frame, tree_index node);
 // Binds all pairs of a map as rows of the element: names first, so that messages can use them.
 void bind_pairs(struct bind_context *context, struct bind_frame *frame, tree_index node);
@@ -199,18 +199,18 @@ tree_index bind_next_value(const struct bind_context *context, const struct bind
 void bind_fixed(struct bind_context *context, struct bind_frame *frame, uint32_t row, struct bind_given given,
                 struct bind_values values, bool may_be_cut);
 
-// bind_loose.c: what is recognised despite a reported mistake is still read, so that its own mistakes show in
-// the same run and names in it are known. Rows touched are poisoned by the caller.
-// The entries that a value of the wrong shape holds, in scratch; replaces the last diagnostic's help if there
-// is a better one than an example (`reported`).
+// bind_loose.c: values recognised despite a reported mistake are still read, so that their own mistakes show
+// in the same run and names in them are known. Rows touched are poisoned by the caller.
+// The entries in a value of the wrong shape, in scratch; replaces the last diagnostic's help if there is a
+// better one than an example (`reported`).
 struct bind_entries bind_loose_entries(struct bind_context *context, const struct schema_row *row,
                                        tree_index value, bool reported);
-// Keys after `key` that belong in its value, one column further right: `outer` (NULL: none) does not know
-// them, the elements of `row` do. Reports and marks them, and the element that lacks them.
+// Keys after `key` that belong in its value, one column further right: `outer` (NULL: none) does not have
+// them, but the elements of `row` do. Reports and marks them, and the element that lacks them.
 void bind_loose_columns(struct bind_context *context, const struct bind_frame *outer,
                         const struct schema_row *row, tree_index key);
-// {position: 0, 0, 0}: in a flow map the commas make keys of all numbers but the first. Whether that was so:
-// reported, with what the list is, and the keys are known.
+// {position: 0, 0, 0}: in a flow map the commas turn all numbers but the first into keys. true: that was so;
+// it is reported with the meant list, and the keys are marked as known.
 bool bind_loose_numbers(struct bind_context *context, struct bind_frame *frame, uint32_t row, tree_index map,
                         tree_index key);
 
@@ -218,12 +218,12 @@ bool bind_loose_numbers(struct bind_context *context, struct bind_frame *frame, 
 // An entry at its defaults, in scratch.
 struct bind_frame bind_entry_begin(struct bind_context *context, const struct bind_frame *parent,
                                    const struct schema_row *row, str name, struct bind_given given);
-// Gives an entry of a named map the key that it is written after.
+// Gives an entry of a named map the key that precedes it.
 void bind_entry_key(struct bind_context *context, struct bind_frame *child, struct bind_given given);
 // Gives an element that has no key the standard one of its list, if that has one.
 void bind_default_key(struct bind_context *context, struct bind_frame *child);
 // Whether the parent's list has an entry of this key already; reports it. (Names of the scene's own things
-// are compared over all files, later.)
+// are compared across all files later.)
 bool bind_is_second(struct bind_context *context, const struct bind_frame *parent,
                     const struct bind_frame *child);
 
@@ -253,10 +253,11 @@ bool bind_name_text(struct bind_context *context, struct bind_subject subject, s
 bool bind_wrong_shape(struct bind_context *context, struct bind_subject subject, tree_index node);
 // Adds an example of the value to the diagnostic that was reported last.
 void bind_help_example(struct bind_context *context, struct bind_subject subject);
-// Adds how the value must be written: with the author's own numbers, if they can be told apart, else an
+// Adds how the value must be written: with the author's own numbers if they can be told apart, else with an
 // example.
 void bind_help_shape(struct bind_context *context, struct bind_subject subject, tree_index node);
-// The same, but nothing if they are not told apart. For a list its text is used. false: nothing was added.
+// The same, but adds nothing if they cannot be told apart. For a list its text is used. false: nothing was
+// added.
 bool bind_help_numbers(struct bind_context *context, struct bind_subject subject, tree_index node);
 
 // bind_values.c: text of SCHEMA_TEXT_VALUES. false: reported or known.
@@ -266,7 +267,7 @@ bool bind_values(struct bind_context *context, struct bind_subject subject, tree
 // A colour from text: #rrggbb, or one number.
 bool bind_color_text(struct bind_context *context, struct bind_subject subject, tree_index node,
                      struct ir_color *out);
-// Reports text that is not a colour, with the colour that other programs would read it as. Always false.
+// Reports text that is not a colour, with the colour that other programs would read. Always false.
 bool bind_bad_color(struct bind_context *context, struct bind_subject subject, tree_index node);
 // Asks whether three numbers are bytes.
 void bind_check_bytes(struct bind_context *context, struct bind_subject subject, tree_index node,

@@ -8,7 +8,7 @@ struct tag {
     uint32_t name_begin, name_end;
     uint32_t begin;    // of the attribute, spaces before it included
     uint32_t rest_end; // after the last attribute
-    bool others;       // one after it is several numbers, too
+    bool others;       // a later attribute also has several numbers
     enum xml_tag_end end;
     uint32_t behind; // the '>'
 };
@@ -38,7 +38,7 @@ static bool find_tag(str text, uint32_t value, struct tag *tag) {
     }
 }
 
-// Of several such attributes of a tag the last one comes first, so that the fixes do not overlap.
+// If a tag has several such attributes, the last comes first, so that the fixes do not overlap.
 void bind_fix_as_child(struct bind_context *context, tree_index value, str child) {
     span at = tree_span(context->tree, value);
     str text = context->sources->items[at.source].text;

@@ -84,8 +84,8 @@ bool bind_bad_color(struct bind_context *context, struct bind_subject subject, t
     return false;
 }
 
-// Three bytes, as other programs write colours, rather than light: whole numbers, one of them above what a
-// bright light needs.
+// Three bytes, as other programs write colours, instead of light: whole numbers, one above what a bright
+// light needs.
 static bool are_bytes(const double rgb[3]) {
     double largest = 0;
     for (int i = 0; i < 3; i++) {

@@ -30,7 +30,7 @@ static bool is_several(const struct bind_context *context, tree_index item) {
            (kind == TREE_SCALAR && mend_is_numbers(tree_text(context->tree, item)));
 }
 
-// Red, green, blue and what other programs write after them.
+// Red, green, blue, and the values that other programs write after them.
 static void help_without_alpha(struct bind_context *context, tree_index node) {
     tree_index r = tree_first(context->tree, node);
     tree_index g = tree_next(context->tree, r), b = tree_next(context->tree, g);
@@ -107,7 +107,7 @@ static bool takes_zero(struct bind_subject subject) {
     return schema_in_range(subject.row->range, 0);
 }
 
-// What is given, with 0 for the rest, or 1 where 0 is not allowed, in the spelling of the file.
+// The given components, with 0 for the rest (1 if 0 is not allowed), in the spelling of the file.
 static void help_with_rest(struct bind_context *context, struct bind_subject subject, tree_index node) {
     const struct tree *tree = context->tree;
     const char *const *names = schema_components(subject.row->kind);
@@ -124,7 +124,7 @@ static void help_with_rest(struct bind_context *context, struct bind_subject sub
                                     : arena_format(context->scratch, "[%.*s]", STR_ARG(list));
     diag_help(context->sink, "with %.*s for the rest: %.*s", STR_ARG(rest),
               STR_ARG(say_text(context->scratch, all)));
-    // What is missing may be another number: a suggestion. A comment inside would be lost.
+    // The missing number may be another one, so this is a suggestion. A comment inside would be lost.
     str written = source_text(context->sources, tree_span(tree, node));
     bool has_comment = written.len && memchr(written.ptr, tree->is_xml ? '!' : '#', written.len);
     if (!has_comment)
@@ -191,7 +191,7 @@ static bool bind_named(struct bind_context *context, struct bind_subject subject
         else if (!reported)
             unknown_component(context, subject, key);
     }
-    // A component that is missing was probably meant by a name that does not exist.
+    // A name that does not exist was probably meant to be the missing component.
     if (all_known && subject.row->kind != SCHEMA_WEIGHTS)
         good = report_missing(context, subject, node, given, good) && good;
     return good && all_known;

@@ -1,4 +1,4 @@
-// Elements, their rows and the entries of these: what calls itself for what is inside.
+// Elements, their rows and the entries of these: the recursive part of the binder.
 #include "diag/codes/binding.h"
 #include "grammar/ir.h"
 #include "parser/bind/bind.h"
@@ -67,7 +67,7 @@ static bool is_excluded(struct bind_context *context, struct bind_frame *frame, 
     return false;
 }
 
-// Several of a row: lists and maps in YAML, repeated children in XML, gathered at the place of the first one.
+// A row with several values: lists and maps in YAML, repeated children in XML, gathered at the first one.
 
 bool bind_entry_into(struct bind_context *context, struct bind_frame *child, struct bind_given given) {
     bind_entry_key(context, child, given);
@@ -87,7 +87,7 @@ bool bind_entry(struct bind_context *context, struct bind_frame *parent, const s
     return true;
 }
 
-// What a value of the wrong shape holds.
+// The contents of a value of the wrong shape.
 static void loose_entries(struct bind_context *context, struct bind_frame *frame, uint32_t row,
                           tree_index value, bool reported) {
     const struct schema_row *r = &frame->schema->rows[row];
@@ -217,9 +217,9 @@ void bind_row(struct bind_context *context, struct bind_frame *frame, uint32_t r
         bind_poison(frame, row);
 }
 
-// What is read despite a reported mistake.
+// Rows that are read despite a reported mistake.
 
-// Whether a value has the shape of the row: one without it would be reported for the same mistake.
+// Whether a value has the shape of the row: one without it would be reported again for the same mistake.
 static bool fits(const struct bind_context *context, const struct schema_row *row, bool single,
                  tree_index value) {
     enum tree_kind kind = bind_kind(context, value);
@@ -390,7 +390,7 @@ static bool is_bare(const struct bind_context *context, const struct bind_frame 
     return kind != TREE_MAP || is_bare_map(context, frame, &frame->schema->rows[bare], node);
 }
 
-// The name is the best place for what concerns a whole entry.
+// The name is the best place for messages about a whole entry.
 static span best_label(const struct bind_context *context, const struct bind_frame *frame, int name_row) {
     if (frame->via->many == SCHEMA_ONE || name_row < 0 || !(frame->seen & bind_bit((uint32_t)name_row)))
         return frame->label;

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-// What to show for an entry without a name: all of it if it fits on a line, else its first key.
+// The span to show for an entry without a name: all of it if it fits on a line, else its first key.
 static span label_of(const struct bind_context *context, struct bind_given given) {
     if (given.key)
         return given.key_span;
@@ -41,8 +41,8 @@ void bind_default_key(struct bind_context *context, struct bind_frame *child) {
     bind_head(child)->written |= bind_bit((uint32_t)row);
 }
 
-// 1 + the index of the entry that has a key, or 0. A list's entries are bound one after the other, so that
-// the map only has to know the last list: one that has fewer entries than the map is another.
+// 1 + the index of the entry that has a key, or 0. A list's entries are bound one after the other, so the map
+// only has to know the last list: a list with fewer entries than the map is a different one.
 static uint32_t find_key(struct bind_context *context, void *list, const struct schema_element *schema,
                          uint32_t row, str key) {
     struct bind_list_keys *keys = &context->keys;

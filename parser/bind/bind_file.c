@@ -1,4 +1,4 @@
-// The root of a file: whether it is a scene, and all that it holds.
+// The root of a file: whether it is a scene, and its contents.
 #include "diag/codes/binding.h"
 #include "grammar/ir.h"
 #include "parser/bind/bind.h"
@@ -40,7 +40,7 @@ static bool is_scene(struct bind_context *context, const struct bind_frame *fram
     bool known = tree->broken || (tree->root && bind_is_bad(context, tree->root));
     if (!good && !known)
         report_no_scene(context, frame, is_map ? tree->root_name : (span){tree->source, 0, 0});
-    // In another style it is still a scene, and its other mistakes are reported too.
+    // A root in another style is still a scene, and its other mistakes are reported too.
     return good || (is_map && tree->is_xml && str_equal_cstr(tag, frame->schema->name));
 }
 

@@ -17,7 +17,7 @@ tree_index bind_next_value(const struct bind_context *context, const struct bind
     return key;
 }
 
-// Returns the number of values; *good: all are right, and there are as many as there must be.
+// Returns the number of values; *good: all are valid, and there are as many as required.
 static uint32_t bind_slots(struct bind_context *context, struct bind_frame *frame, struct bind_values values,
                            bool *good) {
     const struct schema_row *row = &frame->schema->rows[values.row];

@@ -1,4 +1,4 @@
-// Lists of the IR without knowing what they hold: {items, count, capacity}.
+// Lists of the IR without knowing their item type: {items, count, capacity}.
 #include "parser/bind/bind.h"
 
 #include "grammar/ir.h"
@@ -6,7 +6,7 @@
 #include <assert.h>
 #include <string.h>
 
-// The layout that all lists of the IR share; copied in and out, since each has a type of its own.
+// The layout that all lists of the IR share; copied in and out, since each list has its own type.
 struct any_list {
     void *items;
     uint32_t count, capacity;

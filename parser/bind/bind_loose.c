@@ -1,5 +1,5 @@
-// What is recognised despite a reported mistake: it is still read, so that its own mistakes show in the same
-// run, and names in it are known.
+// Recognises values despite a reported mistake: they are still read, so that their own mistakes show in the
+// same run, and names in them are known.
 #include "core/number.h"
 #include "diag/codes/binding.h"
 #include "parser/bind/bind.h"
@@ -95,7 +95,7 @@ static void list_for_map(struct bind_context *context, struct bind_entries *entr
     }
 }
 
-// One value where a list belongs, whose entries need no more than that.
+// One value where a list belongs, if the value alone makes an entry.
 static void value_for_list(struct bind_context *context, struct bind_entries *entries,
                            const struct schema_row *row, tree_index value, bool reported) {
     str written = source_text(context->sources, tree_span(context->tree, value));
@@ -166,7 +166,7 @@ static size_t skip_blanks(str text, size_t at) {
     return at;
 }
 
-// Where the numbers with commas between them end that begin at `begin`; *count of them.
+// The end of the numbers, separated by commas, that begin at `begin`; there are *count of them.
 static size_t numbers_end(str text, size_t begin, uint32_t *count) {
     size_t end = begin;
     text = str_slice(text, 0, begin + NUMBERS_BYTES_MAX < text.len ? begin + NUMBERS_BYTES_MAX : text.len);

@@ -1,4 +1,4 @@
-// What an element must have.
+// The required rows of an element.
 #include "diag/codes/binding.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"

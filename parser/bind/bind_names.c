@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-// How a row is written as a key of this kind; NULL: not at all, the row has another form there.
+// A row's name as a key of this kind; NULL: none, the row has another form there.
 static const char *spelling(const struct schema_row *row, enum tree_key kind, bool singular) {
     if (kind == TREE_KEY_CHILD)
         return row->element;
@@ -77,7 +77,7 @@ static void add_unknown(struct bind_context *context, const struct bind_frame *f
              STR_ARG(say_text(context->scratch, tree_text(context->tree, key))));
 }
 
-// The name exists, and has another form in this spelling: a vector as an attribute, a number as an element.
+// The name exists, but has another form in this spelling: a vector as an attribute, a number as an element.
 static void wrong_form(struct bind_context *context, struct bind_frame *frame, tree_index key, int id) {
     const struct schema_row *row = &frame->schema->rows[id];
     struct bind_subject subject = {.frame = frame, .row = row, .index = -1};
@@ -153,7 +153,7 @@ static const struct schema_row *row_elsewhere(const struct schema_element *eleme
     return NULL;
 }
 
-// What the author knows the element by: its own name, or that of its row.
+// The name by which the author knows the element: its own, or that of its row.
 static str element_in_words(struct bind_context *context, const struct schema_element *element) {
     if (element == &SCHEMA_SCENE)
         return STR("the scene itself");
@@ -242,7 +242,7 @@ static bool other_word_elsewhere(struct bind_context *context, str snake) {
     return count == 1 || count == 2;
 }
 
-// What other tools have and glint has not, unless a name of this element is surely meant.
+// A feature of other tools that glint lacks, unless a name of this element is surely meant.
 static const struct concept *concept_meant(const struct bind_frame *frame, const struct mend_search *search) {
     const struct concept *concept = concept_find(frame->schema, search->snake);
     bool misspelt = search->best && mend_is_safe(search);
@@ -271,7 +271,8 @@ static bool is_glued(struct bind_context *context, struct bind_frame *frame, tre
     return true;
 }
 
-// A key around what belongs in its own place: '- sphere: {...}', 'scene: {...}', <Spheres> around spheres.
+// A key around contents that belong directly in its place: '- sphere: {...}', 'scene: {...}', <Spheres>
+// around spheres.
 static bool is_wrapper(struct bind_context *context, struct bind_frame *frame, tree_index key, str snake,
                        struct bind_meant *meant) {
     tree_index value = tree_value(context->tree, key);
@@ -320,7 +321,7 @@ static span excluding_key(const struct bind_context *context, const struct bind_
     return SPAN_NONE;
 }
 
-// A component of the value that may be written by itself, beside a row that excludes it: r, g, b beside a
+// A component of the value that may be written alone, next to a row that excludes it: r, g, b next to a
 // checker.
 static bool is_mixed(struct bind_context *context, struct bind_frame *frame, tree_index key) {
     int bare = schema_short_row(frame->schema);
@@ -350,7 +351,7 @@ static bool is_mixed(struct bind_context *context, struct bind_frame *frame, tre
     return true;
 }
 
-// "x" beside rows that have components of their own: <Light x="1" y="2" z="3"/>. Reported once.
+// "x" next to rows that have components of their own: <Light x="1" y="2" z="3"/>. Reported once.
 static bool is_component(struct bind_context *context, struct bind_frame *frame, tree_index key) {
     str text = tree_text(context->tree, key);
     for (uint32_t i = 0; i < frame->schema->row_count; i++) {

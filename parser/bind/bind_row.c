@@ -1,5 +1,4 @@
-// What must be known of a row before it is bound: which one a key names, where it is, whether it is given
-// twice.
+// What must be known before a row is bound: which row a key names, where it is, whether it is given twice.
 #include "diag/codes/binding.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
@@ -30,7 +29,7 @@ void bind_note_row(struct bind_context *context, struct bind_frame *frame, uint3
     frame->seen |= bind_bit(row);
 }
 
-// 'camera' beside 'cameras': the two forms of one row.
+// 'camera' next to 'cameras': the two forms of one row.
 static bool report_both_forms(struct bind_context *context, const struct schema_row *row,
                               const struct ir_row_origin *first, struct bind_given given) {
     str before = first ? source_text(context->sources, first->key) : STR("");

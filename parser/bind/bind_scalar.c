@@ -35,7 +35,7 @@ static bool bind_no_value(struct bind_context *context, struct bind_subject subj
     return false;
 }
 
-// One number where several belong: perhaps the same for each.
+// One number where several belong: perhaps it is meant for each.
 static void fix_scalar(struct bind_context *context, const struct schema_row *row, tree_index node,
                        str text) {
     double ignored;
@@ -107,7 +107,7 @@ void bind_help_example(struct bind_context *context, struct bind_subject subject
               STR_ARG(say_subject_example(context->scratch, subject, context->tree->is_xml)));
 }
 
-// What a node is, in words that fit both spellings.
+// The kind of a node, in words that fit both spellings.
 static str found(struct bind_context *context, tree_index node) {
     const struct tree_node *n = tree_node(context->tree, node);
     if (n->kind == TREE_SCALAR)
@@ -263,8 +263,8 @@ static bool is_scalar(struct bind_context *context, struct bind_subject subject,
     return true;
 }
 
-// How many multiples of pi/12, which are 15 degrees, the text writes to all of its decimals; 0: it is not
-// one. With fewer than three decimals only the best known ones count.
+// Which multiple of pi/12 (15 degrees) the text is, correct to all its decimals; 0: none. With fewer than
+// three decimals only the best known ones count.
 static int written_radians(str text, double value) {
     double size = fabs(value), parts = nearbyint(size * 12 / PI);
     double error = fabs(size - parts * PI / 12);

@@ -42,7 +42,7 @@ static void run_taken(void *context) {
 }
 
 static bool take(struct reader_taker *taker, const struct tree *tree, tree_index list_key, tree_index entry) {
-    // The value that a name lacks may come after it, in the wrong column.
+    // The missing value of a name may come after it, in the wrong column.
     if (tree_node(tree, entry)->key == TREE_KEY_PLAIN &&
         tree_node(tree, tree_value(tree, entry))->kind == TREE_NULL)
         return false;

@@ -1,9 +1,9 @@
 // Binding entries of the root's lists while the file is still being read. Private to parser/.
 //
-// Mistakes within an entry are reported as they would be otherwise. After a diagnostic of the reader, or of
-// the root, which may change what must be reported about entries, the caller forgets all of it and reads the
-// file whole: what is reported about a file never depends on how it was read. Ownership: as in bind.h. Thread
-// safety: one stream belongs to one thread.
+// Mistakes within an entry are reported as they would be otherwise. A diagnostic of the reader or of the root
+// may change what must be reported about entries: then the caller drops everything and reads the file whole.
+// So the reports about a file never depend on how it was read. Ownership: as in bind.h. Thread safety: one
+// stream belongs to one thread.
 #ifndef GLINT_PARSER_BIND_BIND_STREAM_H
 #define GLINT_PARSER_BIND_BIND_STREAM_H
 
@@ -21,7 +21,7 @@ struct bind_stream {
 
 // `context` is that of the file, complete except for its scene.
 void bind_stream_begin(struct bind_stream *stream, struct bind_context *context, size_t memory_bytes);
-// Forgets what was bound, and reported.
+// Forgets everything that was bound and reported.
 void bind_stream_forget(struct bind_stream *stream);
 void bind_stream_finish(struct bind_stream *stream);
 

@@ -1,4 +1,4 @@
-// The words of diagnostics about values: what a thing is called, what it must be, how it is written.
+// The words of diagnostics about values: a thing's name, what it must be, how it is written.
 //
 // The words are the same for both spellings; only examples differ. All text is in `arena`.
 // Thread safety: pure except for the arena.
@@ -15,7 +15,7 @@ str say_subject(struct arena *arena, struct bind_subject subject);
 // "a sphere", "the scene", "'diffuse_color'": a kind of element, for messages about what it may hold.
 str say_kind(struct arena *arena, const struct bind_frame *frame);
 str say_article(struct arena *arena, const char *word);
-// Text from a file, made fit for a message: clipped, without control characters.
+// Text from a file, prepared for a message: clipped, without control characters.
 str say_text(struct arena *arena, str text);
 // "one number", "three numbers x, y, z": what a value of this row must be.
 str say_expected(struct arena *arena, const struct schema_row *row);
@@ -27,7 +27,7 @@ str say_words(struct arena *arena, const char *const *words);
 str say_example(struct arena *arena, const struct schema_row *row, bool is_xml);
 // The same for a value, which may be in short form: then for the row that holds the element.
 str say_subject_example(struct arena *arena, struct bind_subject subject, bool is_xml);
-// What glint has in place of something that other tools have, with an example.
+// What glint has instead of a feature of other tools, with an example.
 str say_concept(struct arena *arena, const struct concept *concept, bool is_xml);
 // The XML element of a vector, colour or weights with these numbers ("1, 2, 3").
 str say_components(struct arena *arena, struct bind_subject subject, str numbers);

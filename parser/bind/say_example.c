@@ -23,7 +23,7 @@ static bool is_composite(enum schema_kind kind) {
     return schema_components(kind)[0] != NULL;
 }
 
-// Whether an example of an element shows this row: those that it must have; of a choice the first.
+// Whether an example of an element shows this row: the required rows, and the first of a choice.
 static bool is_shown(const struct schema_element *element, uint32_t i) {
     const struct schema_row *row = &element->rows[i];
     if (row->required && !row->key)

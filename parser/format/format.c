@@ -93,5 +93,5 @@ enum format_status format_source(const struct reader_context *context, uint32_t 
     if (is_safe(context, &tree, text, str_slice(strbuf_view(out), before, out->len)))
         return FORMAT_DONE;
     out->len = before;
-    return errors ? FORMAT_REFUSED : FORMAT_UNSAFE; // what the reader has repaired cannot always be laid out
+    return errors ? FORMAT_REFUSED : FORMAT_UNSAFE; // repaired text cannot always be laid out
 }

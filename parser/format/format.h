@@ -1,4 +1,4 @@
-// The canonical layout of a scene file, in both spellings: text in, text out. docs/format.md says what it is.
+// The canonical layout of a scene file, in both spellings: text in, text out. docs/format.md describes it.
 //
 // Only white space changes: comments, quoting, numbers, anchors, aliases, merge keys and the order of
 // keys stay, as do the byte order mark, the kind of line ends and whether the last line has one. The output
@@ -13,7 +13,7 @@
 #include "parser/tree/reader.h"
 
 enum format_status {
-    FORMAT_DONE,    // also if the file holds mistakes of meaning, which stay unchanged
+    FORMAT_DONE,    // also if the file has mistakes of meaning, which stay unchanged
     FORMAT_REFUSED, // the text cannot be read to its end, or in part: the sink says why
     FORMAT_UNSAFE,  // the layout would have changed what the file means: a mistake of this program
 };

@@ -23,8 +23,9 @@ static bool same_span(str a_text, span a, str b_text, span b) {
     return same_words(str_slice(a_text, a.begin, a.end), str_slice(b_text, b.begin, b.end));
 }
 
-// The comments before an entry are the same ones, and a comment after it is still there. One that was after
-// the last line of an entry, where no other begins, may now be after its first, since lines were joined.
+// The comments before an entry are the same ones, and a comment after it is still there. A comment after the
+// last line of an entry, where no other entry begins, may now be after its first line, since lines were
+// joined.
 static bool same_comments(const struct tree *a, uint32_t i, str a_text, const struct tree *b, uint32_t j,
                           str b_text) {
     struct tree_comment c = a->comments.items[i], d = b->comments.items[j];

@@ -16,7 +16,7 @@ enum {
 bool format_yaml(struct arena *arena, str text, uint32_t begin, struct format_lines *lines);
 bool format_xml(struct arena *arena, str text, uint32_t begin, struct format_lines *lines);
 
-// format_compare.c: whether two trees hold the same, comments at the same entries included.
+// format_compare.c: whether two trees have the same contents, with comments at the same entries.
 bool format_same(const struct tree *a, str a_text, const struct tree *b, str b_text);
 
 #endif

@@ -48,7 +48,7 @@ str format_take_line(str text, size_t *at) {
     return str_slice(text, begin, end);
 }
 
-// The same without trailing spaces. *last: the comment ends here.
+// The next line without trailing spaces. *last: the comment ends here.
 static str take_comment_line(str comment, size_t *at, bool *last) {
     str line = format_take_line(comment, at);
     *last = line.ptr + line.len == comment.ptr + comment.len;
@@ -66,9 +66,8 @@ uint32_t format_column(str text, struct format_place *last, uint32_t at) {
     return last->column;
 }
 
-// The column of a further line of a comment that began at `from` and now begins at `to`: as far right or left
-// as the comment was moved, but never where it would be the mark of a merge conflict. Lines that are indented
-// by tabs stay.
+// The column of a further line of a comment that began at `from` and now begins at `to`: moved as far as the
+// comment, but never to where it would be the mark of a merge conflict. Lines that are indented by tabs stay.
 static uint32_t moved_indent(str line, uint32_t from, uint32_t to, size_t *skip) {
     size_t blanks = 0;
     while (blanks < line.len && line.ptr[blanks] == ' ')

@@ -23,18 +23,18 @@ struct format_lines {
         uint32_t count, capacity;
     } lines;
     uint32_t comment_gap; // spaces before a comment after a line
-    uint32_t column;      // of what comes next, in characters
+    uint32_t column;      // column of what comes next, in characters
     bool begun;           // something was written
-    bool is_open;         // the source ends within the last line, which a line end would change
+    bool is_open;         // the source ends within the last line, where a line end would change it
 };
 
 void format_lines_init(struct format_lines *lines, struct arena *arena, uint32_t comment_gap);
 void format_lines_finish(struct format_lines *lines);
-// Begins a line, `blank` empty ones before it; the first line of all begins at once.
+// Begins a line after `blank` empty ones; the very first line begins at once.
 void format_lines_next(struct format_lines *lines, uint32_t blank, uint32_t indent);
 void format_lines_text(struct format_lines *lines, str text);
-// A comment after the line that was begun last. One of several lines is moved as a whole. A further comment
-// there must follow the first in the same text, with only spaces between.
+// A comment after the line that was begun last. A comment of several lines is moved as a whole. A further
+// comment there must follow the first in the same text, with only spaces between.
 void format_lines_comment(struct format_lines *lines, str comment, uint32_t column);
 // A comment of one or several lines that was at `column` and now begins at the line's column.
 void format_lines_moved(struct format_lines *lines, str comment, uint32_t column);
@@ -48,7 +48,7 @@ str format_take_line(str text, size_t *at);
 struct format_place {
     uint32_t at, column;
 };
-// Characters between the line's beginning and `at`, which is not before *last; that moves to it.
+// Characters between the line's beginning and `at`, which is not before *last; *last moves to `at`.
 uint32_t format_column(str text, struct format_place *last, uint32_t at);
 
 #endif

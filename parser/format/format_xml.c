@@ -11,7 +11,7 @@ enum piece_kind {
     PIECE_OTHER, // an instruction, a DOCTYPE, text between elements
 };
 
-// What is between spaces on the level of elements.
+// A piece between spaces at the level of elements.
 struct piece {
     uint32_t kind; // piece_kind
     uint32_t begin, end;
@@ -65,7 +65,7 @@ static uint32_t behind_text(const struct printer *p, uint32_t at) {
     return at ? end : 0;
 }
 
-// Behind the opening tag at `at`; 0: it has no end.
+// The offset after the opening tag at `at`; 0: it has no end.
 static uint32_t behind_tag(const struct printer *p, uint32_t at, uint32_t *kind) {
     struct xml_attribute ignored;
     enum xml_tag_end end;

@@ -3,7 +3,7 @@
 #include "parser/yaml/yaml_tokens.h"
 
 enum join {
-    JOIN_NONE,  // directly after what comes before
+    JOIN_NONE,  // directly after the previous text
     JOIN_SPACE, // on its line
     JOIN_LINE,  // on a line of its own
 };
@@ -46,7 +46,7 @@ static bool breaks_before(const struct printer *p, const struct yaml_token *toke
     return has_break(p, p->gap, token->begin);
 }
 
-// ---- what is between tokens
+// ---- between tokens
 
 // Where a comment on a line of its own goes: it stays with the block that it was indented with.
 static uint32_t comment_indent(const struct printer *p, uint32_t column, uint32_t indent) {
@@ -66,7 +66,7 @@ struct gap {
     bool comment;    // one was found
 };
 
-// How many empty lines stay before what comes next.
+// How many empty lines stay before the next text.
 static uint32_t blank_lines(const struct printer *p, const struct gap *gap) {
     uint32_t blank = gap->breaks > 1 ? gap->breaks - 1 : 0;
     return blank > FORMAT_BLANK_MOST && !p->keeps_breaks ? FORMAT_BLANK_MOST : blank;
@@ -78,7 +78,7 @@ static void put_comment(struct printer *p, struct gap *gap, uint32_t indent) {
         gap->at++;
     str comment = str_trim(str_slice(p->text, begin, gap->at));
     uint32_t column = format_column(p->text, &p->place, begin);
-    bool after_separator = str_yaml_break_before(p->text, p->gap); // one that belongs to a block text
+    bool after_separator = str_yaml_break_before(p->text, p->gap); // a line end that belongs to a block text
     bool own_line = gap->breaks > 0 || after_separator || p->last == YAML_TOKEN_END;
     if (own_line) {
         format_lines_next(p->lines, blank_lines(p, gap), comment_indent(p, column, indent));
@@ -130,7 +130,7 @@ static str skip_blanks(str line) {
     return str_slice(line, i, line.len);
 }
 
-// A token as written; of several lines, each further one begins at `indent`.
+// A token as written; if it has several lines, each further one begins at `indent`.
 static void put(struct printer *p, enum join join, uint32_t indent) {
     const struct yaml_token *token = peek(p);
     begin_token(p, token, join, indent);
@@ -167,7 +167,7 @@ static str take_block_line(str text, size_t *at, bool at_separators) {
     return str_slice(text, begin, end);
 }
 
-// A line that was indented by `from` spaces, and now is by `to`; so are those after an LS or PS in it.
+// Writes a line that was indented by `from` spaces with `to` spaces; also the lines after an LS or PS in it.
 static void put_block_line(struct printer *p, str line, uint32_t from, uint32_t to) {
     for (size_t at = 0, begin = 0; at < line.len; begin = at) {
         str part = take_block_line(line, &at, true);
@@ -178,7 +178,7 @@ static void put_block_line(struct printer *p, str line, uint32_t from, uint32_t 
     }
 }
 
-// How far the lines of a block text are indented: as its first line, or by the digit in its header.
+// The indentation of a block text's lines: that of its first line, or the digit in its header.
 static uint32_t block_text_indent(const struct printer *p, str text, uint32_t digit) {
     if (digit)
         return p->level.source + digit;
@@ -256,7 +256,7 @@ static void put_list(struct printer *p, enum join join, uint32_t indent) {
     close_block(p, outer);
 }
 
-// Whether a colon directly after such a token would be a part of it.
+// Whether a colon directly after such a token would become part of it.
 static bool takes_colon(enum yaml_token_kind kind) {
     return kind == YAML_TOKEN_ALIAS || kind == YAML_TOKEN_PROPERTY;
 }
@@ -352,15 +352,15 @@ static void put_flow(struct printer *p, enum join join, uint32_t indent) {
         put_flow_entry(p, broken ? JOIN_LINE : next, inner);
         broken = false;
         if (p->at == before)
-            return; // not YAML's grammar: what is left over shows the caller
+            return; // not YAML's grammar: the caller sees it from the tokens left over
     }
     enum join close = p->last == YAML_TOKEN_COLON ? JOIN_SPACE : JOIN_NONE;
     if (peek(p)->kind == YAML_TOKEN_FLOW_CLOSE)
         put(p, flow_join(p, close), expanded ? indent : open);
 }
 
-// A node, or nothing if a value is empty. Lists and maps by indentation begin on a line of their own if the
-// first of their tokens cannot follow what comes before.
+// A node, or nothing if a value is empty. Lists and maps by indentation begin on a line of their own if their
+// first token cannot follow the previous text.
 static void put_node(struct printer *p, enum join join, uint32_t indent) {
     bool after_colon = p->last == YAML_TOKEN_COLON;
     bool after_item = p->last == YAML_TOKEN_ITEM;
@@ -399,8 +399,8 @@ static void put_node(struct printer *p, enum join join, uint32_t indent) {
 
 // ---- the file
 
-// Whether a key at the beginning of a line would be more than that: a mark of a document or of a merge
-// conflict, which are words. (A key of one word has its colon directly after it.)
+// Whether a key at the beginning of a line would also be a mark of a document or of a merge conflict, which
+// are words. (A key of one word has its colon directly after it.)
 static bool is_mark(str key) {
     size_t word = 0;
     while (word < key.len && !char_is_space(key.ptr[word]))

@@ -1,4 +1,4 @@
-// What moves: gives the scene its values in a frame, or checks all frames of it.
+// Animation: gives the scene its values in a frame, or checks all its frames.
 #include "parser/stages/animate.h"
 #include "core/expression.h"
 #include "diag/codes/binding.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// What a frame's check takes, in additions.
+// The cost of a frame's check, in additions.
 enum {
     TRACK_COST = 16,
     ELEMENT_COST = 64,
@@ -81,7 +81,7 @@ static uint64_t cost_of_frame(const struct motion *motion) {
     return cost;
 }
 
-// Where checking all frames takes too long: every n-th, and that is said.
+// If checking all frames would take too long: checks every n-th, and says so.
 static void choose_step(struct motion *motion) {
     const struct loader *loader = motion->loader;
     const uint64_t most = loader->input->limits->value[LIMIT_ANIMATION_OPERATIONS];
@@ -100,7 +100,7 @@ static void choose_step(struct motion *motion) {
               (unsigned long long)(frames * cost));
 }
 
-// Whether the track has a value in all frames, and what it is worth.
+// Checks that the track has a value in all frames, and a valid one.
 static bool look_at_track(const struct motion *motion, const struct moving *m) {
     double first[CURVE_WIDTH_MOST], value[CURVE_WIDTH_MOST];
     bool moves = false;
@@ -114,7 +114,7 @@ static bool look_at_track(const struct motion *motion, const struct moving *m) {
             memcpy(first, value, sizeof first);
         moves = moves || memcmp(first, value, m->width * sizeof *value) != 0;
     }
-    // One key is a track that is being written.
+    // A track with one key is still being written.
     if (!moves && motion->animation->frames > 1 && m->curve.count != 1) {
         diag_add(motion->loader->input->sink, DIAG_TRACK_STILL, m->path->path,
                  "nothing moves: %.*s is the same in all frames",
@@ -137,7 +137,7 @@ static void copy_first_error(const struct motion *motion, const struct diag_sink
     }
 }
 
-// The entry of the scene that a track moves something of.
+// The entry of the scene in which a track moves something.
 static const struct bind_frame *element_of(const struct moving *m) {
     const struct bind_frame *frame = m->frame;
     while (frame->parent && frame->parent->parent)
@@ -152,7 +152,7 @@ static int compare_elements(const void *a, const void *b) {
     return (*x)->memory < (*y)->memory ? -1 : (*x)->memory > (*y)->memory;
 }
 
-// Only what moves can break a rule in one frame and not in another.
+// Only moving values can break a rule in one frame and not in another.
 static void find_elements(struct motion *motion) {
     uint32_t count = 0;
     motion->elements = ARENA_ARRAY(&motion->loader->scratch, const struct bind_frame *, motion->count + 1);
@@ -203,7 +203,7 @@ static void look_at_elements(const struct motion *motion) {
     diag_sink_finish(&found);
 }
 
-// Whether the file names the frame. Who asks for one frame, by an option, asks for nothing about the others.
+// Whether the file names the frame. A user who asks for one frame by an option does not ask about the others.
 static bool is_frame_of_file(const struct loader *loader, const struct ir_animation *animation) {
     const span at = ir_place_value(&loader->output->origin, &animation->head, &SCHEMA_ANIMATION, "frame");
     return loader->input->sources->items[at.source].kind != SOURCE_KIND_OPTION;

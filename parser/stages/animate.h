@@ -1,6 +1,6 @@
-// The tracks of a scene's animation: what each moves, and its value in a frame. Private to parser/stages.
+// The tracks of a scene's animation: the target of each, and its value in a frame. Private to parser/stages.
 //
-// Ownership: all lies in the scene's arena, frames in the loader's scratch. Thread safety: one thread.
+// Ownership: everything is in the scene's arena, frames in the loader's scratch. Thread safety: one thread.
 #ifndef GLINT_PARSER_STAGES_ANIMATE_H
 #define GLINT_PARSER_STAGES_ANIMATE_H
 
@@ -9,12 +9,12 @@
 #include "grammar/ir.h"
 #include "parser/stages/override.h"
 
-// A text of one number or several, compiled.
+// A compiled text of one or more numbers.
 struct moving_text {
     str parts[CURVE_WIDTH_MOST];
     struct expression values[CURVE_WIDTH_MOST];
     double constant[CURVE_WIDTH_MOST];
-    uint32_t count; // of values; 0: it is `constant`, a colour in hexadecimal digits
+    uint32_t count; // how many values; 0: it is `constant`, a colour in hexadecimal digits
 };
 
 // One track, found good so far.
@@ -26,12 +26,12 @@ struct moving {
     uint32_t row_number;
     struct bind_subject subject; // for messages
     double *field;               // in the scene: `width` numbers side by side
-    struct ir_color *color;      // the field is all of this colour; NULL: it is not
+    struct ir_color *color;      // the colour that the field is all of; NULL: none
     uint32_t width;
     bool fills;         // one number stands for all
     struct curve curve; // of keys; count 0: the track's value is an expression
     struct moving_text text;
-    uint64_t cost; // of its value in a frame, in additions
+    uint64_t cost; // cost of its value in a frame, in additions
 };
 
 struct motion {
@@ -40,15 +40,15 @@ struct motion {
     const struct ir_animation *animation;
     struct moving *items;
     uint32_t count;
-    struct override_index index; // of what the tracks name
+    struct override_index index; // index of the names in the tracks
     // While all frames are checked.
-    const struct bind_frame **elements; // that tracks move something of, each once
+    const struct bind_frame **elements; // elements in which tracks move something, each once
     uint32_t element_count;
     int32_t step; // from one frame that is checked to the next
 };
 
-// animate_tracks.c: finds what the tracks move, and reads their keys. Tracks with mistakes are reported and
-// left out.
+// animate_tracks.c: finds the targets of the tracks, and reads their keys. Tracks with mistakes are reported
+// and left out.
 void motion_find(struct motion *motion);
 // The value in a frame, by keys or expression. false: the expression has none (reported).
 bool moving_value(const struct motion *motion, const struct moving *m, int32_t frame,

@@ -12,7 +12,7 @@
 #include <string.h>
 
 enum {
-    CURVE_COST = 16, // of one number of a curve, in additions
+    CURVE_COST = 16, // cost of one number of a curve, in additions
 };
 
 static struct diag_sink *sink(const struct motion *motion) {
@@ -33,7 +33,7 @@ static span target_place(const struct motion *motion, const struct ir_track *tra
     return place ? place->value : ir_place_label(origin(motion), &track->head);
 }
 
-// ---- what a track moves
+// ---- the target of a track
 
 static bool cannot_move(const struct motion *motion, const struct moving *m, const char *why) {
     diag_add(sink(motion), DIAG_TRACK_TARGET, m->path->path, "%.*s %s",
@@ -50,7 +50,7 @@ static bool is_in_use(const struct bind_frame *frame, const struct schema_row *r
     return tag == row->alternative;
 }
 
-// An alternative that the scene does not use would replace what it says.
+// An alternative that the scene does not use would replace the one that it uses.
 static bool not_in_use(const struct motion *motion, const struct moving *m) {
     const char *other = NULL;
     for (uint32_t i = 0; i < m->frame->schema->row_count; i++) {
@@ -136,7 +136,7 @@ static bool wrong_count(const struct motion *motion, const struct moving *m, spa
     return false;
 }
 
-// The place of a part of the text, where the file has it literally.
+// The place of a part of the text, if the file has it literally.
 static span part_of(const struct motion *motion, span at, str part, size_t begin, size_t end) {
     const str written = source_text(motion->loader->input->sources, at);
     for (size_t i = 0; part.len && i + part.len <= written.len; i++)
@@ -357,7 +357,7 @@ static bool read_track(struct motion *motion, const struct ir_track *track, stru
     return true;
 }
 
-// ---- two tracks of one value
+// ---- two tracks for one value
 
 static int compare_fields(const void *a, const void *b) {
     const struct moving *const *x = a, *const *y = b;

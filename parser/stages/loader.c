@@ -25,8 +25,8 @@ static struct reader_context reading(struct loader *loader, struct diag_sink *si
 
 typedef bool read_file(const struct reader_context *context, uint32_t source, struct tree *tree);
 
-// Binds the entries of large lists while they are read. NULL, and nothing is reported, if there is more to
-// report than mistakes in single entries: then the file is read whole.
+// Binds the entries of large lists while they are read. If there is more to report than mistakes in single
+// entries, returns NULL and reports nothing: then the file is read whole.
 static struct ir_scene *stream_file(struct loader *loader, read_file *read, uint32_t source,
                                     struct tree *tree) {
     struct diag_sink *sink = &loader->trial;

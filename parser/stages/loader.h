@@ -25,7 +25,7 @@ struct loader {
     struct schema_index index;
     struct bind_texts texts; // see bind_context
     struct bind_stream stream;
-    struct diag_sink trial; // of the attempt to bind what is read entry by entry
+    struct diag_sink trial; // for the attempt to bind entries while they are read
     struct {
         struct loader_file *items;
         uint32_t count, capacity;
@@ -38,7 +38,7 @@ struct loader {
         uint32_t count;
         span first;
     } refused;       // includes beyond the limit of files
-    bool incomplete; // a file was not read to its end, or includes are not known: names may be in the rest
+    bool incomplete; // a file was not read to its end, or includes are unknown: names may be in the rest
 };
 
 // loader.c
@@ -48,7 +48,7 @@ uint32_t loader_add_file(struct loader *loader, uint32_t source, uint32_t parent
 // resolve.c
 // Reads all that loader->files[file] includes.
 void resolve_includes(struct loader *loader, uint32_t file);
-// Adds a note where the first include that could not be read is reported.
+// Adds a note at the place of the first include that could not be read.
 void resolve_note_unread(struct loader *loader, span at, str message);
 // Says for each included file, at its first diagnostic, where it is included.
 void resolve_note_includes(struct loader *loader);
@@ -56,7 +56,7 @@ void resolve_note_includes(struct loader *loader);
 // merge.c
 // All files in loader->order, as one scene.
 struct ir_scene *merge_files(struct loader *loader);
-// Gives `into` places of its own: those of `from`, with the rows of `into`.
+// Gives `into` its own places: those of `from`, with the rows of `into`.
 void merge_own_places(struct ir_origin *origin, struct ir_head *into, const struct ir_head *from);
 // Removes anonymous elements that nothing uses any more.
 void merge_compact(struct loader *loader, struct ir_scene *scene);
@@ -66,8 +66,8 @@ void merge_compact(struct loader *loader, struct ir_scene *scene);
 void override_apply(struct loader *loader, struct ir_scene *scene);
 
 // animate.c
-// Where the animation names a frame, the scene gets its values in that frame, and has no animation then. Else
-// all frames are checked, and nothing changes.
+// If the animation names a frame, the scene gets its values in that frame and then has no animation. Else all
+// frames are checked, and nothing changes.
 void animate_scene(struct loader *loader, struct ir_scene *scene);
 
 // names.c
@@ -77,7 +77,7 @@ void names_resolve(struct loader *loader, struct ir_scene *scene);
 // validate.c
 // The rules that a table cannot say.
 void validate_scene(struct loader *loader, const struct ir_scene *scene);
-// Those of one camera, light or body, or of the image; what is in loader->scratch stays.
+// The rules of one camera, light or body, or of the image; the contents of loader->scratch stay.
 void validate_element(struct loader *loader, const struct schema_element *schema, const void *memory);
 
 #endif

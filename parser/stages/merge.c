@@ -1,4 +1,4 @@
-// One scene out of several files: elements that occur once merge by attribute, lists are joined.
+// One scene from several files: elements that occur once merge by attribute, lists are joined.
 #include "grammar/ir.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/visit.h"
@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-// A file's own places stay as they are: what is merged has places of its own.
+// A file's own places stay as they are: the merged scene has its own.
 void merge_own_places(struct ir_origin *origin, struct ir_head *into, const struct ir_head *from) {
     struct ir_element_origin element = origin->elements.items[from->origin];
     uint32_t row = origin->elements.items[into->origin].rows;
@@ -29,7 +29,7 @@ static void move_reference(void *context, struct visit_place place, struct ir_ma
         reference->index += merging->first[bind_home_row(place.schema->rows[place.row].child)];
 }
 
-// The lists inside an element become its own.
+// Gives an element its own copies of the lists inside it.
 static void clone_lists(struct arena *arena, const struct schema_element *schema, void *memory) {
     for (uint32_t i = 0; i < schema->row_count; i++) {
         const struct schema_row *row = &schema->rows[i];
@@ -102,7 +102,7 @@ static void merge_element(const struct merging *merging, const struct schema_ele
         }
 }
 
-// The entry that is there once, whichever file writes it; NULL if there is none.
+// The entry that occurs once, whichever file writes it; NULL if there is none.
 static void *find_single(const struct schema_row *row, void *list, const void *item) {
     int key = row->single ? schema_key_row(row->child) : -1;
     if (key < 0)
@@ -134,8 +134,8 @@ static void join_lists(const struct merging *merging, const struct schema_row *r
     }
 }
 
-// A list inside an element that is there once, such as tracks: those of `from`, which is the later file's and
-// a copy, become all of them.
+// A list inside an element that occurs once, such as tracks: the entries of `from`, a copy of the later
+// file's, replace all others.
 static void join_rows(const struct merging *merging, const struct schema_row *row, void *into, void *from) {
     struct arena *arena = merging->loader->input->arena;
     for (uint32_t i = 0; i < bind_list_count(from); i++)
@@ -182,7 +182,7 @@ static struct ir_scene *take_only_file(struct loader *loader, uint32_t include_r
     return scene;
 }
 
-// A frame of an animation is written over the values of the file.
+// A frame of an animation overwrites the values of the file.
 static bool takes_frame(const struct ir_scene *scene) {
     const uint32_t row = (uint32_t)schema_find_row(&SCHEMA_ANIMATION, STR("frame"));
     return (scene->animation.head.written & bind_bit(row)) != 0;

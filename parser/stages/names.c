@@ -62,7 +62,7 @@ static void add_names(const struct loader *loader, struct named_list *list, cons
     int name_row = visit_name_row(row->child);
     for (uint32_t i = 0; name_row >= 0 && i < bind_list_count(field); i++) {
         const void *item = bind_list_item(field, i, row->child->size);
-        // With typographic quotes around it, a name is not valid, and was reported: what it means is clear.
+        // A name in typographic quotes is not valid and was reported, but its meaning is clear.
         str name = mend_quotes(*(const str *)schema_field_const(&row->child->rows[name_row], item));
         if (name.len == 0)
             continue;
@@ -125,7 +125,7 @@ static void report_duplicates(struct loader *loader, const struct named_list *li
 // References.
 
 enum {
-    SEARCHES_MAX = 50, // names that are compared with all others, as many as are reported one by one
+    SEARCHES_MAX = 50, // names compared with all others, as many as are reported one by one
 };
 
 struct resolving {
@@ -142,8 +142,8 @@ enum {
     UNREAD_SHOWN = 5,
 };
 
-// A name that is like none in the files that were read is in the one that was not, as far as can be told: a
-// note of that says so, once for each name.
+// A name unlike any in the files that were read is probably in the file that was not: a note says so, once
+// per name.
 static void note_may_be_unread(struct resolving *resolving, const char *what, span at, str name) {
     struct loader *loader = resolving->loader;
     if (resolving->unread.count > UNREAD_SHOWN || str_map_find(&resolving->unread, name))
@@ -183,8 +183,8 @@ static void list_names(struct loader *loader, const struct named_list *list, con
                   list->count > SHOWN ? ", ..." : "");
 }
 
-// What may be meant by a name that is not there. Many uses of one name cost one search, and many names no
-// more than SEARCHES_MAX: NULL.
+// What a name that does not exist may mean. Many uses of one name cost one search, and many names at most
+// SEARCHES_MAX; after that, NULL.
 static const struct mend_search *search_for(struct resolving *resolving, const struct named_list *list,
                                             str name) {
     uint32_t *number = str_map_at(&resolving->searched, name);
@@ -237,7 +237,7 @@ static void resolve(void *context, struct visit_place place, struct ir_material_
     const struct named_list *list = &resolving->by_row[home];
     const struct named *named = find(list, reference->name);
     reference->index = named ? named->index : IR_NO_INDEX;
-    // What could not be read may hold the name.
+    // The name may be in a file that could not be read.
     bool incomplete = resolving->loader->incomplete || (resolving->scene->head.poisoned & bind_bit(home));
     if (!named && !incomplete)
         report_unknown(resolving, list, place, reference->name);
@@ -276,7 +276,7 @@ static void report_focus(struct resolving *resolving, struct named_list *things,
     }
 }
 
-// Bodies that cameras are focused on.
+// Bodies on which cameras are focused.
 static void find_focus(struct resolving *resolving, struct named_list *things) {
     const struct ir_scene *scene = resolving->scene;
     const struct ir_origin *origin = &resolving->loader->output->origin;

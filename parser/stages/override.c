@@ -1,5 +1,5 @@
-// Applies `--set` options to the merged scene: what the path leads to is bound again, by the same rules and
-// with the same words as in a file.
+// Applies `--set` options to the merged scene: the path's target is bound again, by the same rules and with
+// the same words as in a file.
 #include "parser/stages/override.h"
 #include "diag/codes/binding.h"
 
@@ -163,7 +163,7 @@ static void set_component(struct override *o, const struct override_target *targ
         double value;
         subject.component = schema_components(row->kind)[target->component];
         good = bind_number(&o->context, subject, o->context.tree->root, &value);
-        // Vectors, colours and weights begin with their components, in order.
+        // The structs of vectors, colours and weights begin with their components, in order.
         if (good)
             memcpy(field + target->component * sizeof value, &value, sizeof value);
     }

@@ -25,8 +25,8 @@ enum {
     OVERRIDE_STEPS_MAX = 16
 };
 
-// What many paths into one scene share, which stays as it is meanwhile: entries by their names, each list's
-// when it is first asked.
+// Shared by many paths into one scene, which does not change meanwhile: entries by their names, indexed per
+// list when first asked for.
 struct override_names {
     const void *list;
     struct str_map entries; // 1 + index
@@ -34,7 +34,7 @@ struct override_names {
 };
 struct override_index {
     struct override_names *lists; // in the loader's scratch
-    uint32_t searches;            // through all of a list, for messages
+    uint32_t searches;            // searches through a whole list, for messages
 };
 
 struct override {
@@ -43,8 +43,8 @@ struct override {
     struct bind_context context;
     uint32_t source; // the option's text
     str text;
-    struct override_index *index; // of a track's path; NULL: the scene changes from path to path
-    bool is_track;                // the path is a track's, which has no '=': findings are about that
+    struct override_index *index; // for a track's path; NULL: the scene changes from path to path
+    bool is_track;                // the path is a track's, without '=': findings are about the track
     span track;                   // its text in the file
     uint32_t value_begin;         // after '='
     span path;                    // all of it
@@ -52,7 +52,7 @@ struct override {
     uint32_t step_count;
 };
 
-// What a path leads to.
+// The target of a path.
 enum override_target_kind {
     OVERRIDE_ROW,       // a row of an element
     OVERRIDE_ENTRY,     // an entry of a list or named map
@@ -77,7 +77,7 @@ enum {
 bool override_parse(struct override *o);
 // Splits a path without a value. false: reported.
 bool override_parse_path(struct override *o);
-// What a finding about the path is: the code, or that of tracks.
+// The code of a finding about the path: this one, or the one for tracks.
 diag_code override_code(const struct override *o, diag_code code);
 
 // override.c

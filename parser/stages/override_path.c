@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-// A track's text may be written otherwise than it reads, with quotes or references: then all of it is shown.
+// In the file, a track's text may be written with quotes or references: then all of it is shown.
 static span at(const struct override *o, size_t begin, size_t end) {
     if (!o->is_track)
         return (span){o->source, (uint32_t)begin, (uint32_t)end};

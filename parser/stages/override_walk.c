@@ -18,7 +18,7 @@ static struct diag_sink *sink(const struct override *o) {
     return o->loader->input->sink;
 }
 
-// How the row is reached: the path as far as it has been followed.
+// The way to the row: the path as far as it has been followed.
 static str path_before(const struct override *o, uint32_t step) {
     return step == 0 ? STR("") : str_slice(o->text, 0, o->steps[step - 1].end);
 }
@@ -29,7 +29,7 @@ static str quoted_text(const struct override *o, str text) {
 
 // Messages.
 
-// Whether the step is a word of other programs: then the help says what glint calls it, or has in its place.
+// Whether the step is a word of other programs: then the help says what glint calls it or has instead.
 static bool is_other_word(struct override *o, const struct schema_element *element,
                           const struct override_step *step, str snake) {
     int also = schema_find_also(element, snake);
@@ -126,7 +126,7 @@ static bool unknown_name(struct override *o, const struct schema_row *row, void 
     str names = STR("");
     diag_add(sink(o), override_code(o, DIAG_SET_PATH), step->at, "there is no %s '%.*s'", row->child->name,
              STR_ARG(quoted_text(o, name)));
-    // As many names are compared with all others as are reported one by one.
+    // Only as many names are compared with all others as are reported one by one.
     if (o->index && o->index->searches++ >= SEARCHES_MAX)
         return false;
     for (uint32_t i = 0; i < bind_list_count(list); i++) {

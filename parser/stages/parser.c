@@ -66,7 +66,7 @@ struct job {
     bool done;
 };
 
-// What is kept: the loader's files and names, and the scene.
+// A kept scene: the loader's files and names, and the scene.
 struct parser_kept {
     struct loader loader;
     struct parser_input input;
@@ -105,7 +105,7 @@ static void begin(struct loader *loader) {
     arena_init(&loader->steady, limits_size(loader->input->limits, LIMIT_SCENE_MEMORY));
 }
 
-// All but the steady arena, in which names lie that a kept scene still needs.
+// Frees all but the steady arena, which has names that a kept scene still needs.
 static void end(struct loader *loader) {
     diag_sink_finish(&loader->trial);
     bind_stream_finish(&loader->stream);

@@ -158,7 +158,7 @@ static void include_one(struct loader *loader, uint32_t from, const struct ir_in
     resolve_includes(loader, file);
 }
 
-// Once for all of them.
+// Reported once for all of them.
 static void report_refused(const struct loader *loader) {
     const struct limit_info *info = limit_info(LIMIT_INCLUDE_FILES);
     const uint64_t all = loader->files.count - 1 + (uint64_t)loader->refused.count;
@@ -212,7 +212,7 @@ void resolve_note_includes(struct loader *loader) {
     struct diag_sink *sink = loader->input->sink;
     for (uint32_t i = 1; i < loader->files.count; i++) {
         struct diag *d = first_diag(sink, loader->files.items[i].source);
-        if (!d || d->code == DIAG_INCLUDE_CYCLE) // which shows its own chain
+        if (!d || d->code == DIAG_INCLUDE_CYCLE) // a cycle shows its own chain
             continue;
         for (uint32_t f = i; f != 0; f = loader->files.items[f].parent)
             diag_note_to(sink, d, loader->files.items[f].include, "included here");

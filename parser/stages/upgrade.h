@@ -1,4 +1,4 @@
-// What older versions of the format wrote differently, and how `glint format --upgrade` rewrites it.
+// What older versions of the format spell differently, and how `glint format --upgrade` rewrites it.
 //
 // A table of rules, each for one key or word of one element. A file with the table's version, or without one,
 // is not touched; in an older one only the names in rules and the version are replaced. Ownership: the new
@@ -11,15 +11,15 @@
 #include "parser/tree/reader.h"
 
 struct upgrade_rule {
-    int32_t version;                       // the last one that writes it the old way
-    const struct schema_element *element;  // what holds it, as it is today
+    int32_t version;                       // the last version that writes it the old way
+    const struct schema_element *element;  // the element that contains it, as it is today
     const char *old_key, *new_key;         // YAML's key and XML's attribute; equal: the rule is for a word
     const char *old_element, *new_element; // XML's child element; NULL: it was and is an attribute
     const char *old_word, *new_word;       // the value; NULL: any, and the key is renamed
 };
 
 struct upgrade_table {
-    int32_t version; // what files say afterwards
+    int32_t version; // the version that files state afterwards
     const struct upgrade_rule *rules;
     uint32_t count;
 };

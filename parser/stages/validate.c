@@ -56,7 +56,7 @@ static bool is_parallel(vec3 a, vec3 b) {
     return vec3_length(vec3_cross(vec3_unit(a), vec3_unit(b))) < PARALLEL_SINE;
 }
 
-// true: there is a direction, and it is not zero.
+// true: the direction exists and is not zero.
 static bool check_direction(const struct rules *rules, const struct schema_element *schema,
                             const void *memory, str name, const char *row, vec3 value) {
     if (is_poisoned(schema, memory, row))
@@ -128,17 +128,17 @@ static void check_projection(const struct rules *rules, const struct ir_camera *
     diag_help(rules->sink, "write a smaller 'fov', or projection: fisheye, which shows up to 360 degrees");
 }
 
-// Nearer to a right angle with the view, as a cosine, rounding decides which side a point is on.
+// A cosine: nearer than this to a right angle with the view, rounding decides which side a point is on.
 #define FOCUS_LEAST 1e-12
 
-// What a lens is focused on, once the view is known.
+// Checks what a lens is focused on, once the view is known.
 static void check_focus(const struct rules *rules, const struct ir_camera *camera, vec3 view) {
     const struct schema_element *schema = &SCHEMA_CAMERA;
     const bool by_point = camera->focusing == IR_FOCUS_POINT;
     const bool looks = camera->view == IR_VIEW_LOOK_AT;
     const bool all_round =
         camera->projection == IR_PROJECTION_FISHEYE || camera->projection == IR_PROJECTION_PANORAMA;
-    // Where a body is, is not known yet: check finds those that are not before the camera (W427).
+    // The positions of bodies are not known yet: check finds those that are not before the camera (W427).
     if (!(camera->aperture > 0) || camera->focusing == IR_FOCUS_BODY ||
         is_poisoned(schema, camera, "focus") || is_poisoned(schema, camera, "focus_on") ||
         is_poisoned(schema, camera, "focus_at") || is_poisoned(schema, camera, "position"))
@@ -243,7 +243,7 @@ static void check_panel(const struct rules *rules, const struct ir_light *light)
                  "%.*s has a coordinate beyond 1e18", STR_ARG(owner(rules, &SCHEMA_LIGHT, light->name)));
 }
 
-// Rays look at each of them: more are a mistake, or take for ever.
+// Rays test each of them: more would be a mistake, or take forever.
 static void check_seen(const struct rules *rules, const struct ir_lights *lights) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < lights->count; i++) {
@@ -257,7 +257,7 @@ static void check_seen(const struct rules *rules, const struct ir_lights *lights
     }
 }
 
-// What gives an extent to another kind of light than the one it is written for.
+// Reports a row that would give extent to another kind of light than its own.
 static void check_extent(const struct rules *rules, const struct ir_light *light) {
     static const struct {
         const char *row, *means;
@@ -347,7 +347,7 @@ static void check_model(const struct rules *rules, const struct ir_model *model)
 static void check_image(const struct rules *rules, const struct ir_image *image) {
     const struct schema_element *schema = &SCHEMA_IMAGE;
     int64_t pixels = (int64_t)image->width * image->height;
-    // Others are rendered in bands.
+    // Other pictures are rendered in bands.
     if (pixels <= RANGE_PIXELS_MOST || !(image->error > 0) || is_poisoned(schema, image, "width") ||
         is_poisoned(schema, image, "height"))
         return;

@@ -115,12 +115,12 @@ str mend_number(struct arena *arena, enum number_status status, str text) {
     }
 }
 
-// What may be between numbers, or around them.
+// Characters that may be between numbers, or around them.
 static bool is_between(char c) {
     return memchr(" ,;\t\r\n[](){}<>", c, 14) != NULL;
 }
 
-// The next number of the text, and what follows it; the empty string if there is none.
+// The next number of the text, and the rest after it; the empty string if there is none.
 static str next_number(str *rest) {
     size_t begin = 0;
     while (begin < rest->len && is_between(rest->ptr[begin]))

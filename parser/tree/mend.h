@@ -12,9 +12,9 @@
 str mend_number(struct arena *arena, enum number_status status, str text);
 // Whether the text is several numbers with spaces or commas between them.
 bool mend_is_numbers(str text);
-// Exactly `count` such numbers as "1, 2, 3"; the empty string if it is not that.
+// Exactly `count` such numbers as "1, 2, 3"; the empty string if there are not that many.
 str mend_numbers(struct arena *arena, str text, uint32_t count);
-// The text without the spaces and typographic quotes around it.
+// The text without surrounding spaces and typographic quotes.
 str mend_quotes(str text);
 // "true" or "false" for yes, On, TRUE, 1 ...; the empty string if it is neither.
 str mend_boolean(str text);
@@ -23,7 +23,7 @@ str mend_boolean(str text);
 str mend_color(struct arena *arena, str text, bool *safe);
 // false: not only hexadecimal digits.
 bool mend_hex_digits(str digits, uint32_t *value);
-// Characters that a name must not have become '_'; a leading digit gets one before it.
+// Characters that are not allowed in a name become '_'; a leading digit gets a '_' before it.
 str mend_name(struct arena *arena, str text);
 // `replacement` in the same quotes as `written`, the text of the file.
 str mend_like(struct arena *arena, str written, str replacement);
@@ -31,8 +31,8 @@ str mend_like(struct arena *arena, str written, str replacement);
 str mend_snake(struct arena *arena, str text);
 
 // The nearest of several candidates, compared in snake_case; ties are counted. The beginning of a candidate,
-// of three letters and more, is near too. What all searches of one sink cost is limited; candidates that
-// differ in style alone are always found, if they are no longer than 128 bytes.
+// of three letters and more, is near too. The total cost of all searches of one sink is limited; candidates
+// that differ in style alone are always found, if they are no longer than 128 bytes.
 struct mend_search {
     struct arena *arena;
     str word; // as written

@@ -1,9 +1,9 @@
 // The two readers: text to neutral tree. They know syntax and no element's name.
 //
 // Input: a source that is already in the set. Output: a tree; diagnostics E1xx and limits (E5xx) in the
-// sink. What libyaml or expat refuses ends the file, and what comes before it is in the tree
-// (tree.broken is set); what glint itself finds (tags, duplicate keys, tabs, text between elements ...)
-// does not: it is overwritten in a copy of equal length, and what it touches is marked TREE_BAD.
+// sink. Text that libyaml or expat refuses ends the file, and everything before it is in the tree
+// (tree.broken is set); mistakes that glint itself finds (tags, duplicate keys, tabs, text between elements
+// ...) do not: they are overwritten in a copy of equal length, and the nodes they touch are marked TREE_BAD.
 // Memory: when the arena runs out, the library is freed first; then the jump goes on to the caller, who must
 // have guarded it. There is never a jump through a library's frames.
 #ifndef GLINT_PARSER_TREE_READER_H
@@ -14,8 +14,8 @@
 #include "parser/tree/tree.h"
 
 // Takes the entries of the root's lists and named maps one by one as they are read, so that a large file
-// needs no large tree. What was taken is not in the tree: of a YAML list only its count, of XML children the
-// first key of each name, marked TREE_TAKEN.
+// needs no large tree. Taken entries are not in the tree: only the count of a YAML list, and the first key of
+// each name of XML children, marked TREE_TAKEN.
 struct reader_taker {
     // Whether entries must be taken: those of the list or map of the root's pair `key`, or, in XML, the
     // children of the root that have this key.
@@ -34,7 +34,7 @@ struct reader_context {
                                 // stops (false) at the first diagnostic, and the file must be read again.
 };
 
-// Checks what both spellings share: UTF-8, control characters, emptiness; then reads.
+// Makes the checks that both spellings share (UTF-8, control characters, emptiness), then reads.
 // false: nothing can be bound (a diagnostic says why).
 bool read_yaml(const struct reader_context *context, uint32_t source, struct tree *tree);
 bool read_xml(const struct reader_context *context, uint32_t source, struct tree *tree);

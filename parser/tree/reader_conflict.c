@@ -1,4 +1,4 @@
-// The markers that version control leaves in a file that two people changed at one place.
+// The markers that version control leaves in a file that two people changed at the same place.
 #include "diag/codes/syntax.h"
 #include "parser/tree/reader_text.h"
 
@@ -65,7 +65,7 @@ void reader_conflicts(const struct reader_context *context, struct reader_text *
     for (uint32_t at = find_marker(all, text->begin, '<'); at < all.len; at = find_marker(all, at, '<')) {
         uint32_t middle = has_end ? find_marker(all, at, '=') : (uint32_t)all.len;
         uint32_t end = find_marker(all, middle, '>');
-        has_end = end < all.len; // if there is none, there is none after it either
+        has_end = end < all.len; // if there is none here, there is none later either
         diag_add(sink, DIAG_MERGE_CONFLICT, marker_at(text, at),
                  "a merge conflict in these lines was not resolved");
         blank_out(context, text, at, line_end(all, at));

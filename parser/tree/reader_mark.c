@@ -1,4 +1,4 @@
-// The copy of a text in which mistakes are overwritten, and where they were.
+// The copy of a text in which mistakes are overwritten, and the places of these.
 #include "parser/tree/reader_text.h"
 
 #include <stdlib.h>

@@ -19,22 +19,22 @@ struct reader_text {
     str bytes;           // the whole source; what a library reads is bytes[begin..]
     char *copy;          // NULL until something is overwritten; then bytes.ptr
     bool is_overwritten; // by reader_text_open
-    bool is_binary;      // so much was wrong that a failure of the library adds nothing
+    bool is_binary;      // so much was wrong that the library's failure adds nothing
     struct {
         struct reader_range *items;
         uint32_t count, capacity;
     } bad; // sorted by reader_text_seal
 };
 
-// Reports and overwrites what is not UTF-8 (unless `foreign_encoding`: that has been reported) and control
-// characters. false: UTF-16 or binary data, reported; there is nothing to read.
+// Reports and overwrites control characters and bytes that are not UTF-8 (unless `foreign_encoding`: that has
+// been reported). false: UTF-16 or binary data, reported; there is nothing to read.
 bool reader_text_open(const struct reader_context *context, uint32_t source, uint32_t begin,
                       bool foreign_encoding, struct reader_text *text);
 // Whether a line that begins like this is the first mark of a merge conflict.
 bool reader_begins_conflict(str line);
 // Reports the marks of merge conflicts; they and the second version are overwritten, the first one is read.
 void reader_conflicts(const struct reader_context *context, struct reader_text *text);
-// Overwrites from `begin` on in the copy.
+// Overwrites the copy from `begin` on.
 void reader_text_put(const struct reader_context *context, struct reader_text *text, uint32_t begin,
                      str replacement);
 // Marks a range: a scalar that overlaps it is bad.

@@ -1,4 +1,4 @@
-// The neutral tree: what both readers make of a file, before any element's name is looked up.
+// The neutral tree that both readers make of a file, before any element's name is looked up.
 //
 // A tree holds the tokens of one source. Nodes are 32 bytes, linked by indices; node 0 is "none".
 // A map's children alternate key, value. XML becomes maps too: each attribute is a key (TREE_KEY_ATTRIBUTE)
@@ -38,7 +38,7 @@ enum tree_key {
 
 enum tree_flag {
     TREE_BAD = 1,    // a diagnostic was given for this node; later stages stay silent about it
-    TREE_CUT = 2,    // the file broke off inside this list, map or element: what it lacks may be after
+    TREE_CUT = 2,    // the file broke off inside this list, map or element: missing parts may follow
     TREE_MERGED = 4, // YAML: a key that came by '<<'
     TREE_SHARED = 8, // YAML: the node has an anchor, so that its contents must not be moved
     TREE_TAKEN = 16, // XML: a key that stands for all children of its name, which were taken one by one
@@ -91,7 +91,7 @@ struct tree {
     span closing_comments; // comments after the last entry, or SPAN_NONE; XML: </Scene> may be inside
     bool overwritten; // the source has bytes that are not text, or marks of conflicts: reported, and read as
                       // spaces
-    bool broken;      // libyaml or expat itself stopped: what follows was not read
+    bool broken;      // libyaml or expat itself stopped: the rest was not read
 };
 
 void tree_init(struct tree *tree, struct arena *arena, uint32_t source, bool is_xml);
@@ -117,7 +117,7 @@ static inline uint32_t tree_add_text(struct tree *tree, str text) {
 uint32_t tree_add_comment(struct tree *tree, struct tree_comment comment);
 // Keeps a comment if its text, without the comment's marks, begins with "glint:".
 void tree_add_directive(struct tree *tree, str comment, uint32_t begin, uint32_t end);
-// Gives an entry a comment after it on its line, if it has none yet.
+// Gives an entry the comment after it on its line, if it has none yet.
 void tree_add_trailing(struct tree *tree, tree_index entry, uint32_t begin, uint32_t end);
 
 static inline struct tree_node *tree_node(const struct tree *tree, tree_index i) {

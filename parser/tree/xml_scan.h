@@ -16,7 +16,7 @@ enum xml_tag_end {
     XML_TAG_OPEN,      // '>'
     XML_TAG_EMPTY,     // '/>'
     XML_TAG_SPLIT,     // '/', spaces, '>'
-    XML_TAG_MALFORMED, // what expat will refuse
+    XML_TAG_MALFORMED, // something that expat will refuse
 };
 
 // The name after '<', or after the '/' of an end tag, at `at`; returns its end, `at` + 1 if there is none.

@@ -11,7 +11,7 @@ enum {
     CHUNK_BYTES = 1 << 24
 };
 
-// What a callback works on.
+// The data that a callback works on.
 struct xml_event {
     struct xml_reader *reader;
     void (*body)(struct xml_reader *, const struct xml_event *);
@@ -26,7 +26,7 @@ static void run_body(void *context) {
 }
 
 // Runs the body of a callback. A jump of the arena must not cross expat's frames: it is caught here, within
-// the callback, and handed on when expat has returned.
+// the callback, and passed on once expat has returned.
 static void guarded(struct xml_reader *r, void (*body)(struct xml_reader *, const struct xml_event *),
                     const char *name, const char **attributes) {
     if (r->stopped)
@@ -201,7 +201,7 @@ static bool declared_encoding(str text, struct reader_range *encoding) {
     return false;
 }
 
-// What needs no expat: encoding, UTF-8, and what can be repaired.
+// The checks that do not need expat: encoding, UTF-8, and repairable mistakes.
 static bool prepare(const struct reader_context *context, uint32_t source, struct reader_text *text) {
     struct reader_range encoding = {0};
     str all = context->sources->items[source].text;
@@ -226,7 +226,7 @@ static bool prepare(const struct reader_context *context, uint32_t source, struc
     return !context->taker || context->sink->count == 0;
 }
 
-// Entries that are handed over one by one are never read by expat.
+// expat never reads files whose entries are handed over one by one.
 static bool read_plain(struct xml_reader *r) {
     if (!xml_read_plain(r))
         return false;

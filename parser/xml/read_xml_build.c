@@ -1,4 +1,4 @@
-// Links what is in the file into the tree, whichever file found it: read_xml.c with expat, or
+// Links the contents of the file into the tree, whichever reader found them: read_xml.c with expat, or
 // read_xml_plain.c.
 #include "diag/codes/syntax.h"
 #include "parser/xml/xml_reader.h"
@@ -37,7 +37,7 @@ static tree_index add_scalar(struct xml_reader *r, str text, span at, enum tree_
                                      .count = (uint32_t)text.len});
 }
 
-// Links a key and its value after what the element holds.
+// Links a key and its value after the element's present contents.
 static void link_pair(struct xml_reader *r, struct xml_frame *frame, tree_index key, tree_index value) {
     tree_node(r->tree, key)->next = value;
     if (frame->last)
@@ -88,7 +88,7 @@ void xml_end_text(struct xml_reader *r) {
     diag_add(r->context->sink, DIAG_XML_TEXT, at, "text between elements");
     help_text(r, source_text(r->context->sources, at));
     r->run = (struct reader_range){0};
-    // What the element lacks was probably written as text.
+    // The element's missing parts were probably written as text.
     if (r->depth > 0)
         tree_node(r->tree, r->frames[r->depth - 1].node)->flags |= TREE_BAD;
 }
@@ -114,8 +114,7 @@ static void report_element_prefix(struct xml_reader *r, str name, span at) {
     diag_help(sink, "write <%.*s>", STR_ARG(reader_clip(local)));
 }
 
-// Whether the attribute says something about the file's form and not about the scene; reports what
-// must not be there.
+// Whether the attribute concerns the file's form instead of the scene; reports those that must not be there.
 static bool is_foreign(struct xml_reader *r, str name, str value, struct xml_attribute place, bool is_root) {
     bool plain = name.ptr[0] != 'x' && !memchr(name.ptr, ':', name.len);
     if (plain)
@@ -156,7 +155,7 @@ void xml_add_attribute(struct xml_reader *r, str name, str value, struct xml_att
         return;
     unsigned flags = 0;
     span at = xml_span(r, place.value_begin, place.value_end);
-    // What is written there literally was checked before; a reference makes the text shorter.
+    // Literal text was checked before; a reference makes the text shorter.
     bool decoded = place.value_end - place.value_begin != value.len;
     if (decoded && reader_find_control(value) < value.len) {
         diag_add(r->context->sink, DIAG_CONTROL_CHARACTER, at,

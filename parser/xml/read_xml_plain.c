@@ -1,5 +1,5 @@
 // The plain part of XML, read without expat and several times faster: elements, attributes, comments.
-// Whatever is not surely well-formed and plain (DOCTYPE, CDATA, text, references by number, line ends in
+// Anything not certainly well-formed and plain (DOCTYPE, CDATA, text, references by number, line ends in
 // values, names beyond ASCII ...) ends it silently, and expat reads the file. A fuzz target checks that both
 // make the same tree.
 #include "parser/xml/xml_reader.h"
@@ -49,7 +49,7 @@ static str read_name(struct plain *p) {
 
 // ---- attributes
 
-// The five entities; false for all other references, and if there is no room.
+// Decodes the five entities; false for all other references, and if there is no room.
 static bool decode(str raw, char *out, size_t *length) {
     static const struct {
         str name;
@@ -116,7 +116,7 @@ static bool read_attribute(struct plain *p, str name) {
 
 // ---- markup
 
-// From after the name to the '>'; *empty: it was '/>'.
+// Reads from after the name to the '>'; *empty: it was '/>'.
 static bool skip_to_tag_end(const struct plain *p, uint32_t *end, bool *empty) {
     char quote = '\0';
     for (uint32_t at = p->at; at < p->end; at++) {

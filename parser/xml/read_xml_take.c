@@ -8,7 +8,7 @@ void xml_take_mark(struct xml_reader *r) {
     r->taken.comments_mark = r->tree->comments.count;
 }
 
-// Drops what was read since the mark.
+// Drops everything read since the mark.
 static void forget(struct xml_reader *r) {
     r->taken.nodes += r->tree->nodes.count - r->taken.nodes_mark;
     r->tree->nodes.count = r->taken.nodes_mark;

@@ -27,7 +27,7 @@ enum {
     XML_FIRST_MAX = 32
 };
 
-// Whether a child of the root is taken, and whether it is linked nevertheless.
+// Whether a child of the root is taken, and whether it is linked anyway.
 enum xml_taking {
     XML_NOT_TAKEN,
     XML_TAKEN_FIRST,
@@ -42,7 +42,7 @@ struct xml_reader {
     struct xml_frame *frames;
     uint32_t depth;
     bool stopped;           // a limit, a DOCTYPE or lack of memory ended the reading
-    enum arena_fault fault; // set in a callback, handed on outside of expat
+    enum arena_fault fault; // set in a callback, passed on outside expat
 
     struct reader_range run; // of text between elements; equal: none
     bool in_cdata;
@@ -85,7 +85,7 @@ void xml_end_text(struct xml_reader *reader);
 bool xml_read_plain(struct xml_reader *reader);
 
 // ---- read_xml_take.c
-// What is read from here on is dropped when the next child has been taken.
+// Everything read from here on is dropped once the next child has been taken.
 void xml_take_mark(struct xml_reader *reader);
 // A child of the root begins, or the root ends: hands over the child that waits. false: read the file whole.
 bool xml_take_ready(struct xml_reader *reader);

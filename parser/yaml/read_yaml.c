@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-// After each repair the text is read again from the start: often in a small file, seldom in a large one.
+// After each repair the text is read again from the start: often for a small file, seldom for a large one.
 enum {
     ATTEMPTS_MAX = 256,
     ATTEMPTS_FREE = 8,
@@ -33,7 +33,7 @@ static uint32_t skip_anchor(str text, uint32_t at, uint32_t end) {
     return at;
 }
 
-// libyaml's marks of a node include its properties, of which it has at most one of each kind.
+// libyaml's marks for a node include its properties; a node has at most one of each kind.
 static struct properties find_properties(struct yaml_reader *r, uint32_t begin, uint32_t end) {
     str text = r->text->bytes;
     struct properties p = {.end = begin};
@@ -206,7 +206,8 @@ static void on_collection(struct yaml_reader *r, enum tree_kind kind, bool flow,
                           const yaml_char_t *tag) {
     uint32_t begin = yaml_byte(r, r->event.start_mark);
     uint32_t end = yaml_byte(r, r->event.end_mark);
-    // A block collection in a value's place is not a token: comments before it belong to its first entry.
+    // A block collection that is a value has no token of its own: comments before it belong to its first
+    // entry.
     bool entry = yaml_at_entry(r);
     if (flow || entry) {
         yaml_gap(r, begin);
@@ -224,7 +225,7 @@ static void on_collection(struct yaml_reader *r, enum tree_kind kind, bool flow,
     }
     uint8_t flags = tag ? report_tag(r, p.tag) : 0;
     if (r->depth == 0)
-        flags = 0; // what the root holds is checked nevertheless
+        flags = 0; // the root's contents are checked anyway
     tree_index added = yaml_add(r, (struct tree_node){.kind = (uint8_t)kind,
                                                       .style = flow ? TREE_FLOW : TREE_BLOCK,
                                                       .flags = flags,
@@ -401,7 +402,7 @@ static void run_attempts(void *context) {
         }
         if (outcome == READ_REFUSED)
             yaml_blame(r);
-        // After repaired tabs the columns are guesses; in binary data all is.
+        // After repaired tabs, columns are guesses; in binary data, everything is.
         if (outcome == READ_REFUSED && !tabs_repaired && !(r->text->is_binary && r->documents))
             yaml_report(r);
         r->tree->broken = outcome != READ_WHOLE && r->document_end == 0;
@@ -410,7 +411,7 @@ static void run_attempts(void *context) {
     }
 }
 
-// What libyaml and the sink hold is freed, whether memory runs out or not.
+// The memory of libyaml and the sink is freed, whether memory runs out or not.
 static void run_guarded(struct yaml_reader *r) {
     struct arena *arena = r->context->arena;
     enum arena_fault fault = arena_guarded(arena, run_attempts, r);
@@ -442,7 +443,7 @@ static void read_text(const struct reader_context *context, struct reader_text *
     }
 }
 
-// If the root is not a map, or missing, and that was not reported yet.
+// Reports a root that is missing or not a map, unless that was already reported.
 static void report_root(const struct reader_context *context, struct tree *tree, bool silent) {
     const struct tree_node *root = tree_node(tree, tree->root);
     if (silent)

@@ -11,7 +11,7 @@ static void link_child(struct yaml_reader *r, struct yaml_frame *frame, tree_ind
     frame->last = child;
 }
 
-// "camera {position": the colon is missing, and libyaml will stumble over what follows on the line.
+// "camera {position": the colon is missing, and libyaml will stumble over the rest of the line.
 static bool lacks_colon(struct yaml_reader *r, const struct tree_node *node, str text) {
     const char *blank = text.len ? memchr(text.ptr, ' ', text.len) : NULL;
     size_t end = blank ? (size_t)(blank - text.ptr) : text.len;
@@ -34,7 +34,7 @@ static bool is_remark(struct yaml_reader *r, const struct tree_node *node, str t
     diag_add(&r->sink, DIAG_YAML_SYNTAX, yaml_span(r, node->begin, node->begin + 2),
              "'//' does not begin a comment in YAML");
     diag_help(&r->sink, "a comment begins with '#' and ends with its line");
-    r->blamed = node->end; // of the last line that was read as a part of it
+    r->blamed = node->end; // the end of the last line that was read as part of it
     return true;
 }
 

@@ -8,7 +8,7 @@ static bool is_schema_line(str comment) {
     return str_starts_with(body, STR("yaml-language-server:"));
 }
 
-// Where libyaml ends a comment, too: what follows NEL, LS and PS is content.
+// Where libyaml also ends a comment: text after NEL, LS and PS is content.
 static uint32_t line_end(str text, uint32_t at) {
     while (at < text.len && !str_yaml_break_length(text, at))
         at++;

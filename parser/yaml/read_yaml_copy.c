@@ -1,4 +1,4 @@
-// Copies of what aliases and merge keys stand for.
+// Copies the nodes that aliases and merge keys stand for.
 #include "parser/yaml/yaml_reader.h"
 
 // Whether one more copied node is allowed at this depth; reports if not.

@@ -148,7 +148,7 @@ static tree_index last_child(const struct tree *tree, tree_index node) {
 }
 
 void yaml_blame(struct yaml_reader *r) {
-    // What these lack probably comes after the mistake.
+    // The missing parts of these probably come after the mistake.
     for (tree_index node = r->closed; node; node = last_child(r->tree, node)) {
         if (tree_node(r->tree, node)->style != TREE_BLOCK)
             break;

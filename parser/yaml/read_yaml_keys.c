@@ -33,10 +33,10 @@ static bool merge_one(struct yaml_reader *r, struct yaml_frame *frame, tree_inde
             move_pairs(r, frame, pairs);
         return true;
     }
-    tree_node(r->tree, frame->node)->flags |= TREE_CUT; // what it lacks was to come from there
+    tree_node(r->tree, frame->node)->flags |= TREE_CUT; // its missing keys should have come from there
     if (node->flags & TREE_BAD)
         return false;
-    // What came by an alias has the place of its anchor.
+    // Nodes that came by an alias have the place of their anchor.
     bool is_alias = node->begin < tree_node(r->tree, key)->begin;
     diag_add(&r->sink, DIAG_YAML_MERGE, tree_span(r->tree, is_alias ? key : value),
              "'<<' merges maps, and this is not a map");
@@ -60,13 +60,13 @@ void yaml_merge(struct yaml_reader *r, struct yaml_frame *frame, tree_index key,
     }
 }
 
-// Each join walks over what was joined before.
+// Each join walks over everything joined before.
 enum {
     JOINS_MAX = 100
 };
 
-// What two values of one key hold, one after the other, if that cannot change what is right in either: both
-// are maps, or lists of maps.
+// Joins the contents of two values of one key, if that cannot change what is right in either: both are maps,
+// or lists of maps.
 static bool joins(const struct tree *tree, tree_index a, tree_index b) {
     unsigned kind = tree_node(tree, a)->kind;
     if ((tree_node(tree, a)->flags | tree_node(tree, b)->flags) & TREE_SHARED)
@@ -126,7 +126,7 @@ static bool is_item(const struct tree *tree, tree_index value) {
     return node->kind == TREE_NULL && node->begin == node->end && !(node->flags & TREE_BAD);
 }
 
-// One walk over the pairs; `merged` ones or those that the map itself holds.
+// One walk over the pairs: the `merged` ones or the map's own.
 static void unique(struct yaml_reader *r, struct yaml_frame *frame, bool merged) {
     struct tree *tree = r->tree;
     tree_index before = 0; // the value before the pair

@@ -6,7 +6,7 @@ span yaml_span(const struct yaml_reader *r, uint32_t begin, uint32_t end) {
     return (span){r->text->source, begin < size ? begin : size, end < size ? end : size};
 }
 
-// libyaml counts characters; counted on from the last place asked for.
+// libyaml counts characters; counting continues from the last place asked for.
 static uint32_t find_byte(struct yaml_reader *r, yaml_mark_t mark) {
     str text = r->text->bytes;
     uint32_t at = r->place_bytes;

@@ -53,8 +53,8 @@ static uint32_t replace_tabs(struct yaml_reader *r) {
     return lines;
 }
 
-// Two spaces for each tab before the first token of a line, from `begin`, which is inside such white space,
-// on; *end is after the last of these tabs.
+// Two spaces for each tab before the first token of a line, starting at `begin`, which is inside such white
+// space; *end is after the last of these tabs.
 static str with_spaces(struct yaml_reader *r, uint32_t begin, uint32_t *end) {
     str text = r->text->bytes;
     char *out = arena_alloc(r->context->arena, heap_times(2, text.len - begin) + 1);
@@ -94,7 +94,7 @@ static bool repair_tabs(struct yaml_reader *r, struct diag_sink *sink, uint32_t 
     return yaml_char(r, at) != '\t';
 }
 
-// A tag whose handle is not declared, or that is malformed: overwritten with spaces, and what follows it is
+// A tag that is malformed or whose handle is not declared: overwritten with spaces, and the node after it is
 // bad.
 static bool repair_tag(struct yaml_reader *r, struct diag_sink *sink, uint32_t problem) {
     const yaml_parser_t *p = &r->parser;

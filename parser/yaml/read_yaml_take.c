@@ -1,5 +1,5 @@
-// Handing entries of the root's lists and maps to the taker as they are read. An entry is whole when the
-// token after it was found: until then a comment on its line may belong to it.
+// Handing entries of the root's lists and maps to the taker as they are read. An entry is whole once the
+// token after it has been found: until then a comment on its line may belong to it.
 #include "parser/yaml/yaml_reader.h"
 
 static void fail(struct yaml_reader *r) {
@@ -14,7 +14,7 @@ static void set_mark(struct yaml_reader *r) {
     r->taken.anchors_mark = r->anchors.count;
 }
 
-// Drops what was read since the mark, unless an alias may still need it.
+// Drops everything read since the mark, unless an alias may still need it.
 static void forget(struct yaml_reader *r) {
     if (r->anchors.count != r->taken.anchors_mark)
         return;
@@ -69,7 +69,7 @@ void yaml_take_ready(struct yaml_reader *r) {
         set_mark(r);
 }
 
-// Names of a map's keys outlive their nodes, so that one given twice is noticed.
+// Names of a map's keys outlive their nodes, so that a key given twice is noticed.
 static bool is_new_key(struct yaml_reader *r, tree_index key) {
     str name = tree_text(r->tree, key);
     if (str_map_find(&r->taken.keys, name))

@@ -1,8 +1,8 @@
-// libyaml allocates by itself; where it got no memory, that is said as everywhere else (core/heap.h), and not
-// as a mistake of the text.
+// libyaml allocates by itself; if it gets no memory, that is reported as everywhere else (core/heap.h), not
+// as a mistake in the text.
 //
-// Ownership: the parser is the caller's, to be deleted by yaml_parser_delete. Errors: as heap.h; where that
-// has no handler, false. Thread safety: one call belongs to one thread.
+// Ownership: the parser is the caller's, to be deleted by yaml_parser_delete. Errors: as heap.h; false if
+// that has no handler. Thread safety: one call belongs to one thread.
 #ifndef GLINT_PARSER_YAML_YAML_MEMORY_H
 #define GLINT_PARSER_YAML_YAML_MEMORY_H
 
@@ -11,7 +11,7 @@
 
 // A new parser. false: there is not enough memory.
 bool yaml_memory_begin(yaml_parser_t *parser);
-// What a call of libyaml returned; asks why if it failed.
+// Passes on what a libyaml call returned; if it failed, finds out why.
 bool yaml_memory_check(const yaml_parser_t *parser, int good);
 
 #endif

@@ -1,13 +1,13 @@
 // What the files of the YAML reader share: its state, one libyaml parser at a time.
 //
 // read_yaml.c runs libyaml's events, read_yaml_build.c links nodes into the tree, read_yaml_take.c hands
-// entries of the root's lists over before the file is read to its end, read_yaml_alias.c finds what aliases
-// stand for, read_yaml_copy.c copies it, read_yaml_keys.c merges maps and finds keys given twice,
-// read_yaml_comment.c finds comments between tokens, read_yaml_repair.c repairs what glint understands
+// entries of the root's lists over before the file is read to its end, read_yaml_alias.c finds the nodes that
+// aliases stand for, read_yaml_copy.c copies them, read_yaml_keys.c merges maps and finds keys given twice,
+// read_yaml_comment.c finds comments between tokens, read_yaml_repair.c repairs text that glint understands
 // better than libyaml, read_yaml_error.c puts libyaml's errors in words. They call read_yaml_place.c, which
-// knows where the reader is, and none calls read_yaml.c. All places are bytes of the source.
-// Ownership: the arena of the reader_context; libyaml's own memory is freed before any jump leaves.
-// Thread safety: one reader belongs to one thread.
+// knows where the reader is, and none calls read_yaml.c. All places are bytes of the source. Ownership: the
+// arena of the reader_context; libyaml's own memory is freed before any jump leaves. Thread safety: one
+// reader belongs to one thread.
 #ifndef GLINT_PARSER_YAML_YAML_READER_H
 #define GLINT_PARSER_YAML_YAML_READER_H
 
@@ -68,7 +68,7 @@ struct yaml_reader {
     uint64_t alias_nodes;
 
     // Comments are searched for between tokens.
-    uint32_t gap; // what comes before was searched
+    uint32_t gap; // text before this has been searched
     tree_index
         line_entry; // the first entry that begins on the line of the last token; YAML_LOST_ENTRY: taken
     struct tree_comment pending; // comments that wait for the entry that they precede
@@ -130,9 +130,9 @@ void yaml_close_cut(struct yaml_reader *reader);
 void yaml_take_open(struct yaml_reader *reader);
 // One was closed.
 void yaml_take_close(struct yaml_reader *reader);
-// A token was found, and what comes before it: hands over the entry that waits.
+// A token was found, and the comments before it: hands over the entry that waits.
 void yaml_take_ready(struct yaml_reader *reader);
-// Whether the entry, an item or a key with its value, is taken and not to be linked.
+// Whether the entry, an item or a key with its value, is taken instead of linked.
 bool yaml_take(struct yaml_reader *reader, tree_index entry);
 
 // ---- read_yaml_alias.c
@@ -164,8 +164,8 @@ bool yaml_comment_color(const struct yaml_reader *reader, uint32_t at, struct re
 void yaml_report_color(struct diag_sink *sink, str text, span at);
 
 // ---- read_yaml_repair.c
-// After the reading stopped: overwrites what glint understands better, reports it to `sink` and says that the
-// text must be read again from the start.
+// After reading stopped: overwrites text that glint understands better, reports it to `sink`, and returns
+// whether the text must be read again from the start.
 bool yaml_repair(struct yaml_reader *reader, struct diag_sink *sink, bool *tabs_repaired);
 
 // ---- read_yaml_error.c

@@ -2,7 +2,7 @@
 // which the tree (parser/tree/tree.h) has resolved. For the formatter, which moves only white space.
 //
 // Ownership: the list is in the caller's arena, which must be guarded. Errors: false if libyaml refuses the
-// text; what is wrong with it is for the reader to report. Thread safety: one call belongs to one thread.
+// text; the reader reports what is wrong with it. Thread safety: one call belongs to one thread.
 #ifndef GLINT_PARSER_YAML_YAML_TOKENS_H
 #define GLINT_PARSER_YAML_YAML_TOKENS_H
 

@@ -1,4 +1,4 @@
-// The table of picture formats: the one place that knows which there are.
+// The table of picture formats: the only place that knows which exist.
 //
 // Input: a path, or an enum image_format. Output: rows of a constant table, and words made from it, which are
 // constants too so that documentation and messages can hold them (unit/formats keeps them true to the table).
@@ -19,7 +19,7 @@ enum image_format {
     IMAGE_FORMATS,
 };
 
-// What is done with files of a format.
+// What files of a format are used for.
 enum image_use {
     IMAGE_WRITTEN = 1,  // by glint render -o
     IMAGE_IN_SCENE = 2, // an image that a scene names
@@ -30,11 +30,11 @@ struct image_format_info {
     const char *name;       // "PNG"
     const char *endings[3]; // {".png"}; NULL after the last
     unsigned uses;          // bits of enum image_use
-    unsigned bits[3];       // per channel that can be written, the default first; 0 after the last
-    unsigned side_max;      // pixels that a side can have; 0: as many as glint renders
+    unsigned bits[3];       // bits per channel that can be written, the default first; 0 after the last
+    unsigned side_max;      // most pixels of a side; 0: as many as glint renders
     bool is_linear;         // holds colours as they were rendered, before tone and transfer
-    bool has_quality;       // which is lossy
-    bool has_compression;   // of several kinds
+    bool has_quality;       // lossy, with a quality setting
+    bool has_compression;   // has several kinds of compression
     const char *magic;      // the first bytes of a file; NULL: there are none
     const char *words;      // "Radiance HDR", in lists for people
     const char *what;       // as in "this is a PNG picture"
@@ -47,7 +47,7 @@ struct image_format_info {
 
 // Accepts IMAGE_NONE, which has an empty name and no endings.
 const struct image_format_info *image_format_info(enum image_format format);
-// By the ending of a path, whatever its case; false: no format of this use ends so.
+// Finds the format by a path's ending, ignoring case; false: no format of this use has it.
 bool image_format_of_path(str path, enum image_use use, enum image_format *format);
 // Why files of a format can be neither read nor written: a library that glint was built without; NULL: they
 // can.

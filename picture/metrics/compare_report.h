@@ -7,11 +7,11 @@
 #include "core/strbuf.h"
 #include "picture/metrics/metrics.h"
 
-// One bound per metric: the most it may be, or the least if higher is better.
+// One bound per metric: its maximum, or its minimum if higher is better.
 struct measure_bounds {
     bool has[METRIC_COUNT];
     double bound[METRIC_COUNT];
-    double not_finite; // pixels that may be not a number; 0 if no bound was given
+    double not_finite; // how many pixels may be not a number; 0 if no bound was given
 };
 
 struct compare_report {
@@ -26,7 +26,7 @@ struct compare_report {
 // Whether a metric keeps its bound; true if it has none. NaN keeps no bound.
 bool measure_keeps(const struct measure_bounds *bounds, const struct measure_result *result,
                    enum metric metric);
-// All bounds together: with any of them, pixels that are not a number are bounded too.
+// All bounds together: if there is any, pixels that are not a number are bounded too.
 bool compare_keeps_bounds(const struct compare_report *report);
 void compare_text(const struct compare_report *report, struct strbuf *out);
 void compare_json(const struct compare_report *report, struct strbuf *out);

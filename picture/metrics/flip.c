@@ -4,7 +4,7 @@
 // Colour: to YCxCz, filtered with the contrast sensitivity of the eye (section 4.1.1), clamped to the colours
 // that can be shown, to L*a*b* with the Hunt effect, HyAB distance, redistributed to 0..1 (4.1.2, 4.1.3).
 // Features: edges and points of the luminance (4.2). Together: colour^(1 - feature) (4.3). Filters are sums
-// of products of one-dimensional ones, so that each is two passes.
+// of products of one-dimensional filters, so each takes two passes.
 #include "core/angle.h"
 #include "core/heap.h"
 #include "picture/metrics/metrics_internal.h"
@@ -137,8 +137,8 @@ static void filter_channel(struct plane_size size, const struct sensitivity *s, 
     }
     memcpy(term, plane, count * sizeof *term);
     memset(plane, 0, count * sizeof *plane);
-    // The second Gaussian filters the original channel: `planes` has room for one copy, which the first one
-    // does not change.
+    // The second Gaussian filters the original channel: `planes` has room for a copy, which the first
+    // Gaussian does not change.
     float *filtered = planes + PLANE_FEATURE * count;
     for (int k = 0; k < 2; k++) {
         if (share[k] == 0)

@@ -10,7 +10,7 @@
 
 #include <stdint.h>
 
-// 0 black, 1 pale yellow; values beyond are clamped; what is not a number is cyan, which is not on the map.
+// 0 black, 1 pale yellow; values beyond are clamped; NaN is cyan, which is not on the map.
 void heatmap_color(double value, uint8_t rgb[3]);
 
 enum heatmap_scale {

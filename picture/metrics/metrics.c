@@ -56,8 +56,8 @@ static bool finite_pixel(const float *c) {
     return isfinite(c[0]) && isfinite(c[1]) && isfinite(c[2]);
 }
 
-// Bytes are floats here, each rounded by half a unit in the last place: levels that are one apart must not be
-// over 1/255 for some values and below it for others.
+// Bytes are floats here, each rounded by half a unit in the last place: the difference of adjacent levels
+// must not be above 1/255 for some values and below it for others.
 static bool is_over(const struct summing *s, double value, double reference) {
     return fabs(value - reference) > s->threshold + 0x1p-24 * (fabs(value) + fabs(reference));
 }
@@ -151,7 +151,7 @@ static bool sum_pixels(struct plane_size size, const float *picture, const float
 
 static float *displayed_copy(const float *picture, size_t pixels, const struct measure_options *options) {
     float *copy = heap_array(heap_times(3, pixels), sizeof *copy);
-    // In displayed values only what is not a number changes.
+    // In displayed values only NaN changes.
     const struct image_display none = {IR_TONE_CLIP, IR_TRANSFER_NONE};
     if (copy)
         image_to_displayed(picture, pixels, options->space == MEASURE_LINEAR ? options->display : none, copy);

@@ -1,13 +1,13 @@
-// How far one picture is from another: the metrics of `glint compare` and `glint tradeoff`.
+// How much one picture differs from another: the metrics of `glint compare` and `glint tradeoff`.
 //
 // Two pictures of the same size, three floats per pixel, rows from the top, in the same space: displayed
 // values (0..1, as written to an 8-bit file, before rounding) or linear ones (as in the float formats). The
 // second picture is the reference; only relMSE is not symmetric. MAE, RMSE, relMSE, the largest difference,
 // PSNR (peak 1) and the share over the threshold are computed in the given space; SSIM and FLIP are defined
 // on displayed values: linear ones are clamped and encoded for them. Means are over pixels that are finite in
-// both pictures, and the others are counted; for SSIM and FLIP what is not a number is 0.
-// Ownership: the caller's arrays. Errors: false when memory runs out. Thread safety: pure; uses all
-// processors, and the result does not depend on how many there are.
+// both pictures, and the others are counted; for SSIM and FLIP, NaN counts as 0. Ownership: the caller's
+// arrays. Errors: false when memory runs out. Thread safety: pure; uses all processors, and the result does
+// not depend on how many there are.
 #ifndef GLINT_PICTURE_METRICS_METRICS_H
 #define GLINT_PICTURE_METRICS_METRICS_H
 
@@ -25,7 +25,7 @@ struct metric_info {
     const char *name; // "mae"
     const char *title;
     bool higher_is_better;
-    bool of_displayed; // always of displayed values; the others of those compared
+    bool of_displayed; // always of displayed values; the others: of the values compared
 };
 
 enum measure_space {
@@ -35,10 +35,10 @@ enum measure_space {
 
 struct measure_options {
     enum measure_space space;
-    double threshold;             // of METRIC_SHARE, usually 1/255
-    double pixels_per_degree;     // of METRIC_FLIP, usually 67
+    double threshold;             // for METRIC_SHARE, usually 1/255
+    double pixels_per_degree;     // for METRIC_FLIP, usually 67
     struct image_display display; // for linear values
-    uint32_t metrics;             // bit 1 << METRIC_...: those that are wanted; 0: all
+    uint32_t metrics;             // bit 1 << METRIC_...: the wanted metrics; 0: all
 };
 
 struct measure_place {

@@ -33,8 +33,8 @@ static void smooth(struct plane_size size, const struct filter *filter, float *p
                      planes + k * count);
 }
 
-// Over the windows that lie inside the picture, as the authors define it; of a picture smaller than a window
-// over all pixels, its edges repeated.
+// Over the windows inside the picture, as the authors define it; for a picture smaller than a window, over
+// all pixels with repeated edges.
 static double mean_over_windows(struct plane_size size, const float *planes) {
     const size_t count = (size_t)size.width * size.height;
     const bool inside = size.width > 2 * RADIUS && size.height > 2 * RADIUS;

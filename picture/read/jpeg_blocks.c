@@ -9,7 +9,7 @@
 #include <jerror.h>
 
 enum {
-    ALIGNMENT = 64, // more than what the library's vector instructions need
+    ALIGNMENT = 64, // more than the library's vector instructions need
 };
 
 static jvirt_barray_ptr request(j_common_ptr decoder, int pool, boolean pre_zero, JDIMENSION width,

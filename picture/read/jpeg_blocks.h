@@ -1,8 +1,8 @@
 // Memory for the coefficients of JPEG files that are decoded in several scans: each block of a component, row
-// by row, in memory of ours instead of libjpeg-turbo's "virtual arrays".
+// by row, in our own memory instead of libjpeg-turbo's "virtual arrays".
 //
-// They are most of what decoding touches: two bytes for each sample of the picture. Here they come zeroed
-// from the system, in huge pages where it has them (core/heap.h), and are not cleared again.
+// They are most of the memory that decoding touches: two bytes per sample of the picture. Here they come
+// zeroed from the system, in huge pages where it has them (core/heap.h), and are not cleared again.
 //
 // Errors: libjpeg-turbo's own, by its error handler: JERR_OUT_OF_MEMORY (with heap.h's handler before it),
 // JERR_NO_BACKING_STORE where the arrays take more than decoder->mem->max_memory_to_use. Ownership: the

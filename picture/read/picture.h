@@ -26,9 +26,9 @@ struct picture {
     uint32_t width, height;
     enum picture_depth depth;
     void *pixels;          // row 0 on top; NULL: its size is known, and the pixels were not kept
-    uint64_t size_bytes;   // that the pixels take where they are kept
+    uint64_t size_bytes;   // memory of the pixels if they are kept
     const char *ignored;   // parts that glint does not use, as in "alpha is"; NULL: none
-    uint64_t clear_pixels; // of a PNG that was decoded: those whose alpha is not full
+    uint64_t clear_pixels; // in a decoded PNG: how many have alpha that is not full
 };
 
 // Accepts a zeroed picture.

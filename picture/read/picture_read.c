@@ -40,8 +40,8 @@ static const char *read_rows(str bytes, struct picture_header *header, struct pi
     return hdr_read_rows(bytes, header, rows);
 }
 
-// The rows, each `stride` bytes after the one before; NULL and *fault, or the memory that they are in.
-// It is zeroed, so that no file can show old contents of memory.
+// Memory for the rows, each `stride` bytes after the one before; NULL with *fault set if that fails. It is
+// zeroed, so that no file can show old contents of memory.
 static void *make_rows(str bytes, struct picture_header *header, uint64_t size, size_t stride,
                        const char **fault) {
     void *memory = heap_zeroed(size, 1);

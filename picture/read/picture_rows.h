@@ -1,7 +1,7 @@
-// Where a decoder puts the rows that it makes: each in its place, or all in one. Private to picture/read.
+// Where a decoder puts its rows: each in its own place, or all in the same one. Private to picture/read.
 //
-// Rows are as struct picture keeps them. With a stride of 0 there is one row, which each row overwrites: what
-// is in it when a row begins is then that of another row, and zeros at first.
+// Rows are as struct picture keeps them. With a stride of 0 there is one row, which each row overwrites: when
+// a row begins, it still has the contents of another row, or zeros at first.
 // Ownership: the memory is the caller's. Thread safety: as the caller's.
 #ifndef GLINT_PICTURE_READ_PICTURE_ROWS_H
 #define GLINT_PICTURE_READ_PICTURE_ROWS_H

@@ -10,7 +10,7 @@ enum {
     CHANNELS_MAX = 1024,
     SIDE_MAX = 1 << 24,
     COLORS = 3,
-    BUFFERS = 4, // that the library has of a chunk: packed, unpacked and two for its work
+    BUFFERS = 4, // the library's buffers for a chunk: packed, unpacked and two for its work
     MEMORY_SLACK = 1 << 20,
     OFFSET_BYTES = 8, // of a chunk in the file's table
 };
@@ -18,7 +18,7 @@ enum {
 static const char damaged_header[] = "its header is damaged, or the file ends within it";
 static const char damaged_pixels[] = "its pixels are damaged, or some are missing";
 
-// ---- the library's ways to the file and to memory
+// ---- the library's access to the file and to memory
 
 static int64_t on_read(exr_const_context_t context, void *user, void *to, uint64_t count, uint64_t at,
                        exr_stream_error_func_ptr_t on_error) {
@@ -43,7 +43,7 @@ static void on_error(exr_const_context_t context, exr_result_t code, const char 
     (void)message;
 }
 
-// Damaged chunks may not fill the memory that they are decoded into: what they leave must not be of another
+// Damaged chunks may not fill the memory that they are decoded into: the rest must not come from another
 // file.
 static void *on_alloc(size_t count) {
     return heap_zeroed(1, count);
@@ -68,7 +68,7 @@ static const char *open_file(str *bytes, exr_context_t *out) {
     return fault_of(exr_start_read(out, "picture", &init), damaged_header);
 }
 
-// ---- what the header says
+// ---- the header
 
 struct facts {
     exr_attr_box2i_t window;
@@ -251,7 +251,7 @@ static const char *decode_chunk(struct decoding *d, int y) {
     return fault_of(result, damaged_pixels);
 }
 
-// One row of a chunk, to where it is kept.
+// Copies one row of a chunk to where it is kept.
 static const char *take_row(struct decoding *d, const float *from, unsigned char *to) {
     const bool is_grey = d->facts.color[0] == d->facts.color[1];
     for (size_t i = 0; i < (size_t)COLORS * d->width; i++) {

@@ -9,10 +9,10 @@
 #include "picture/read/picture_read.h"
 #include "picture/read/picture_rows.h"
 
-// Reads the header, and where each chunk of rows lies. Fills width, height, decoder_bytes and ignored. NULL,
-// or what is wrong.
+// Reads the header, and the place of each chunk of rows. Fills width, height, decoder_bytes and ignored.
+// NULL, or what is wrong.
 const char *picture_exr_header(str bytes, struct picture_header *out);
-// Three floats per pixel, finite and not negative. NULL, or what is wrong. `ignored` then tells of negative
+// Three floats per pixel, finite and not negative. NULL, or what is wrong. `ignored` then mentions negative
 // values, which become 0.
 const char *picture_exr_rows(str bytes, struct picture_header *header, struct picture_rows rows);
 

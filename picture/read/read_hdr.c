@@ -12,7 +12,7 @@ struct hdr_reader {
     const unsigned char *end;
 };
 
-// The next line without its end; false if the file ends before.
+// The next line without its line end; false if the file ends first.
 static bool next_line(str bytes, size_t *at, str *line) {
     const char *end = memchr(bytes.ptr + *at, '\n', bytes.len - *at);
     if (!end)
@@ -84,7 +84,8 @@ static bool read_channel(struct hdr_reader *r, unsigned char *channel, uint32_t 
     return true;
 }
 
-// Pixels one by one, where 1 1 1 N repeats the last pixel N times; several in a row shift N by 8 bits each.
+// Pixels one by one, where 1 1 1 N repeats the last pixel N times; several of these in a row shift N by 8
+// bits each.
 static bool read_flat(struct hdr_reader *r, unsigned char *row, uint32_t width) {
     unsigned shift = 0;
     for (uint32_t x = 0; x < width;) {

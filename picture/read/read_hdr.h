@@ -8,7 +8,7 @@
 #include "picture/read/picture_read.h"
 #include "picture/read/picture_rows.h"
 
-// Fills width, height, data_at and ignored. NULL, or what is wrong.
+// Fills width, height, data_at and ignored. Returns NULL, or what is wrong.
 const char *hdr_read_header(str bytes, struct picture_header *out);
 // RGBE: the bytes of the format itself, runs expanded. NULL, or what is wrong.
 const char *hdr_read_rows(str bytes, const struct picture_header *header, struct picture_rows rows);

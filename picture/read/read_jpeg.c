@@ -28,7 +28,7 @@ enum marker {
 
 enum {
     COMPONENTS_MAX = 4,
-    SCANS_MAX = 500, // each one passes over the whole picture, however few bytes it has
+    SCANS_MAX = 500, // each scan passes over the whole picture, however few bytes it has
     FACTOR_MAX = 4,  // of sampling
     BLOCK = 8,       // samples along its side
     BLOCK_BYTES = BLOCK * BLOCK * 2,
@@ -144,8 +144,8 @@ static uint64_t rounded_up(uint64_t value, uint64_t step) {
     return (value + step - 1) / step * step;
 }
 
-// All coefficients of a frame, two bytes each: what is kept of files whose scans have only a part of them.
-// Whole units of blocks, as the library counts them.
+// The size of all coefficients of a frame, two bytes each: kept for files whose scans have only a part of
+// them. Counted in whole units of blocks, as the library does.
 static uint64_t coefficient_bytes(const struct walk *w) {
     unsigned across_most = 1, down_most = 1;
     for (unsigned i = 0; i < w->components; i++) {
@@ -183,7 +183,7 @@ struct job {
     const char *fault; // NULL: all went well
 };
 
-// Faults that a file can have and that say more than that it is damaged.
+// Faults of a file that can be described better than as damage.
 static const struct {
     int code;
     const char *fault;
@@ -206,7 +206,7 @@ static const struct {
 
 _Noreturn static void on_error(j_common_ptr decoder) {
     struct job *job = decoder->client_data;
-    // The library says so of what is too large for it, too.
+    // The library also reports this for files that are too large for it.
     if (decoder->err->msg_code == JERR_OUT_OF_MEMORY && errno == ENOMEM)
         heap_exhausted(0);
     job->fault = "its pixels are damaged, or some are missing";
@@ -216,8 +216,8 @@ _Noreturn static void on_error(j_common_ptr decoder) {
     longjmp(job->jump, 1);
 }
 
-// Errors that the library would accept, with grey in place of what is lost, are faults here. These are not:
-// bytes after a scan's data, and what does not affect a pixel.
+// Errors that the library would accept, with grey in place of lost data, are faults here. Not faults: bytes
+// after a scan's data, and errors that do not affect a pixel.
 static void on_message(j_common_ptr decoder, int level) {
     int code = decoder->err->msg_code;
     bool harmless = code == JWRN_EXTRANEOUS_DATA || code == JWRN_JFIF_MAJOR || code == JWRN_ADOBE_XFORM ||
@@ -275,7 +275,7 @@ static void read_rows(str bytes, struct job *job) {
     jpeg_create_decompress(decoder);
     jpeg_blocks_use(decoder, &job->blocks);
     jpeg_mem_src(decoder, (const unsigned char *)bytes.ptr, bytes.len);
-    // No header can make the library keep more than was counted.
+    // No header can make the library keep more memory than was counted.
     decoder->mem->max_memory_to_use =
         header->decoder_bytes < LONG_MAX ? (long)header->decoder_bytes : LONG_MAX;
     jpeg_read_header(decoder, TRUE);
@@ -311,7 +311,7 @@ const char *picture_jpeg_rows(str bytes, const struct picture_header *header, st
         return picture_no_memory;
     job.decoder.err = &job.errors;
     job.decoder.client_data = &job;
-    // What the decoder calls; the library's own would bring the text of its messages with them.
+    // Error callbacks; the library's own would link in the text of its messages.
     job.errors.error_exit = on_error;
     job.errors.emit_message = on_message;
     job.errors.reset_error_mgr = on_reset;

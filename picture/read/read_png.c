@@ -13,7 +13,7 @@ enum {
     DATA_SLACK = 64 << 10,
     MEMORY_SLACK = 1 << 20,
     COLORS = 3,
-    ROWS = 4, // that libpng has at a time, as wide as a row can be
+    ROWS = 4, // how many libpng has at a time, each as wide as a row can be
 };
 
 static uint32_t big_endian(const unsigned char *p, int bytes) {
@@ -71,8 +71,8 @@ const char *picture_png_header(str bytes, struct picture_header *out) {
                : NULL;
 }
 
-// The CRC-32 of each chunk (annex D), and how much compressed data there is: a byte inflates to a thousand,
-// so data beyond what the picture can need is refused before any time is spent on it.
+// Checks the CRC-32 of each chunk (annex D), and the amount of compressed data: a byte inflates to a
+// thousand, so data beyond what the picture can need is refused before any time is spent on it.
 static const char *check_chunks(str bytes, uint64_t most_data) {
     const unsigned char *data = (const unsigned char *)bytes.ptr;
     uint64_t data_bytes = 0;
@@ -97,9 +97,9 @@ struct job {
     size_t left;
     struct picture_header *header;
     struct picture_rows rows;
-    size_t row_bytes;     // of a row as it is kept
-    uint64_t memory_left; // that libpng may still ask for
-    const char *fault;    // what is wrong if libpng gives up now; NULL: all went well
+    size_t row_bytes;     // bytes of a row as it is kept
+    uint64_t memory_left; // memory that libpng may still ask for
+    const char *fault;    // what is wrong if libpng gives up now; NULL: nothing
 };
 
 static void on_read(png_structp png, png_bytep to, size_t count) {
@@ -148,8 +148,8 @@ static void set_up(png_structp png, struct job *job) {
     png_set_user_limits(png, INT32_MAX, INT32_MAX);
 }
 
-// Takes off the alpha of a row, and counts the pixels where it is not full. It is libpng's last step, so that
-// an interlaced picture's pixels come by once.
+// Removes the alpha of a row, and counts the pixels where it is not full. It is libpng's last step, so it
+// sees an interlaced picture's pixels only once.
 static void take_alpha(png_structp png, png_row_infop row, png_bytep data) {
     struct job *job = png_get_user_transform_ptr(png);
     const size_t color = (size_t)COLORS * row->bit_depth / 8, pixel = color / COLORS * (COLORS + 1);

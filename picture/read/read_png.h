@@ -7,7 +7,8 @@
 #include "picture/read/picture_read.h"
 #include "picture/read/picture_rows.h"
 
-// Walks all chunks. Fills width, height, is_16_bit, decoder_bytes and ignored. NULL, or what is wrong.
+// Walks all chunks. Fills width, height, is_16_bit, decoder_bytes and ignored. Returns NULL, or what is
+// wrong.
 const char *picture_png_header(str bytes, struct picture_header *out);
 // RGB of 8 or 16 bits per channel, as the header says, for a file that picture_png_header found whole. Fills
 // clear_pixels. NULL, or what is wrong. Rows of an interlaced file come several times, each time with more of

@@ -16,7 +16,7 @@ static str from(str s, size_t begin) {
     return str_slice(s, begin, s.len);
 }
 
-// Up to the first byte of this value, which is not in it; all if there is none.
+// The part before the first byte of this value; all if there is none.
 static str until(str s, char end) {
     const char *at = s.len ? memchr(s.ptr, end, s.len) : NULL;
     return at ? (str){s.ptr, (size_t)(at - s.ptr)} : s;

@@ -1,4 +1,4 @@
-// OpenEXR: linear floats or halves in the channels R, G and B, and layers beside them.
+// OpenEXR: linear floats or halves in the channels R, G and B, and layers next to them.
 #include "core/heap.h"
 #include "picture/write/encode_internal.h"
 #include "picture/write/exr_file.h"

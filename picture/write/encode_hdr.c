@@ -15,7 +15,7 @@ enum {
     LITERAL_MAX = 128,
 };
 
-// Negative values cannot be written; infinity becomes the greatest value that can.
+// Negative values cannot be written; infinity becomes the greatest writable value.
 static float storable(float c) {
     return c > 0 ? fminf(c, 0x1.fep126f) : 0;
 }

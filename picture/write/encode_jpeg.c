@@ -1,4 +1,4 @@
-// JPEG through libjpeg-turbo: baseline, its chroma halved below the quality where that shows.
+// JPEG through libjpeg-turbo: baseline, with halved chroma below the quality at which that is visible.
 #include "picture/write/encode_internal.h"
 #include "picture/write/image.h"
 

@@ -1,4 +1,4 @@
-// Portable float map: a scale of -1 says little endian; rows go from the bottom up.
+// Portable float map: a scale of -1 says little endian; rows are from the bottom up.
 #include "picture/write/encode_internal.h"
 
 #include <string.h>

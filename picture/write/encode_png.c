@@ -1,4 +1,4 @@
-// PNG (ISO/IEC 15948) through libpng, with data that are deflated already (png_data.h).
+// PNG (ISO/IEC 15948) through libpng, with data that is already deflated (png_data.h).
 #include "picture/write/encode_internal.h"
 #include "picture/write/image.h"
 #include "picture/write/png_data.h"
@@ -16,13 +16,13 @@ enum {
     DEEP_BITS = 16,
 };
 
-// What is deflated of rows that come some at a time.
+// Deflates rows that come some at a time.
 struct flow {
     const struct image_rows *rows;
     struct image_display display;
     float *linear;
-    uint8_t *shown;    // a row before those that were taken, and these
-    uint8_t *filtered; // `before` bytes of the stream that were deflated already, then `have` others
+    uint8_t *shown;    // the row before the taken rows, and these rows
+    uint8_t *filtered; // `before` bytes of the stream already deflated, then `have` new ones
     size_t before, have;
     struct png_data data;
 };
@@ -32,7 +32,7 @@ struct file {
     int bits;
     const struct image_texts *texts; // NULL: none
     struct png_data data;
-    struct flow *flow; // NULL: the data are there
+    struct flow *flow; // NULL: the data is complete
     const struct image_sink *sink;
 };
 
@@ -66,7 +66,8 @@ static void on_free(png_structp png, png_voidp memory) {
     free(memory);
 }
 
-// What comes before and after the deflated pieces (RFC 1950): a window of 32 KiB, and the sum of all bytes.
+// The bytes before and after the deflated pieces (RFC 1950): a window of 32 KiB, and the checksum of all
+// bytes.
 enum {
     STREAM_HEAD = 2,
     STREAM_END = 4
@@ -80,8 +81,8 @@ static unsigned long sum_of(unsigned long sum, const struct png_data *data) {
     return sum;
 }
 
-// A chunk for each piece: none is so large that its length would not fit. *all is the sum of what was written
-// before, and then of these too.
+// A chunk for each piece: none is too large for its length field. *all is the checksum of everything written
+// before, then including these.
 static void write_data(png_structp png, const struct png_data *data, unsigned long *all, bool begins,
                        bool ends) {
     static const png_byte type[] = "IDAT";
@@ -140,7 +141,7 @@ static bool take_rows(struct flow *flow, uint32_t y, uint32_t count) {
     return true;
 }
 
-// Deflates what makes whole pieces, or all that is left.
+// Deflates the bytes that make whole pieces, or all that are left.
 static bool deflate_rows(struct flow *flow, bool is_last) {
     const size_t size = is_last ? flow->have : flow->have / PNG_PIECE * PNG_PIECE;
     png_data_finish(&flow->data);
@@ -184,7 +185,7 @@ static void write_all(png_structp png, png_infop info, const struct file *file) 
         write_flow(png, file->flow);
     else
         write_data(png, &file->data, &sum, true, true);
-    // png_write_end would miss the data, of which libpng knows nothing.
+    // png_write_end would miss the data, which libpng does not know of.
     png_write_chunk(png, (png_const_bytep) "IEND", NULL, 0);
 }
 

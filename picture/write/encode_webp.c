@@ -1,5 +1,5 @@
-// WebP through libwebp: lossy below the best quality, by its default method, on one thread, so that its bytes
-// are always the same.
+// WebP through libwebp: lossy below the best quality, by its default method, on one thread, so its bytes are
+// always the same.
 #include "core/heap.h"
 #include "picture/write/encode_internal.h"
 #include "picture/write/image.h"

@@ -13,13 +13,13 @@ enum {
     ZIP_LEVEL = 4,
 };
 
-// ---- the library's way to the file
+// ---- the library's access to the file
 
 struct target {
     struct strbuf *out;
     const struct image_sink *sink; // NULL: memory
     uint64_t written;              // to the sink
-    bool failed;                   // the sink, or where rows come from
+    bool failed;                   // the sink failed, or the source of rows did
 };
 
 static bool put_zeros(struct target *target, uint64_t end) {
@@ -33,7 +33,7 @@ static bool put_zeros(struct target *target, uint64_t end) {
     return good;
 }
 
-// The table of chunks is left out at first, and written over once it is known.
+// The chunk table is skipped at first, and filled in once it is known.
 static int64_t put_to_sink(struct target *target, const void *bytes, uint64_t count, uint64_t at) {
     const struct image_sink *sink = target->sink;
     bool good = put_zeros(target, at);
@@ -59,7 +59,7 @@ static int64_t on_write(exr_const_context_t context, void *user, const void *byt
         strbuf_char(out, '\0');
     if (out->failed)
         return -1;
-    // The table of chunks is written again once it is known.
+    // The chunk table is written again once it is known.
     const size_t over = out->len - (size_t)at < count ? out->len - (size_t)at : (size_t)count;
     if (over)
         memcpy(out->data + at, bytes, over);
@@ -114,9 +114,9 @@ struct encoding {
     const struct exr_file *file;
     int32_t lines;
     exr_chunk_info_t first;
-    struct chunk *chunks; // of those that are coded at once
+    struct chunk *chunks; // the chunks that are coded at once
     size_t first_chunk;
-    float *rgb; // of their rows; NULL: channels are there
+    float *rgb; // their rows; NULL: channels are in memory
     struct target target;
     atomic_bool failed;
 };
@@ -150,8 +150,8 @@ static void place_channels(const struct encoding *e, exr_encode_pipeline_t *pipe
     }
 }
 
-// Called when a chunk is compressed and is to wait for those before it: it is kept and its pipeline ended,
-// and all are written in their order later.
+// Called when a chunk is compressed and must wait for those before it: it is kept, its pipeline ends, and all
+// chunks are written in order later.
 static exr_result_t keep(exr_encode_pipeline_t *pipeline) {
     struct chunk *chunk = pipeline->encoding_user_data;
     chunk->count = pipeline->compressed_bytes;
@@ -161,7 +161,7 @@ static exr_result_t keep(exr_encode_pipeline_t *pipeline) {
     return EXR_ERR_UNKNOWN;
 }
 
-// The library says it only of the chunk that is written next.
+// The library only gives it for the chunk that is written next.
 static exr_chunk_info_t info_of(const struct encoding *e, size_t i) {
     exr_chunk_info_t info = e->first;
     const uint32_t begin = (uint32_t)i * (uint32_t)e->lines, left = e->file->height - begin;
@@ -205,7 +205,7 @@ static bool take_rows(struct encoding *e, size_t count) {
     return taken;
 }
 
-// `count` chunks from e->first_chunk on, coded side by side and written in their order.
+// `count` chunks from e->first_chunk on, coded in parallel and written in order.
 static bool write_some(struct encoding *e, size_t count) {
     if (!take_rows(e, count))
         return false;
@@ -261,6 +261,6 @@ void exr_file_write(const struct exr_file *file, struct strbuf *out) {
                          write_chunks(&e);
     const bool ended = begun && exr_finish(&e.context) == EXR_ERR_SUCCESS;
     if ((!written || !ended) && !e.target.failed)
-        heap_exhausted(0); // all else is right: what the library asks of zlib and the system has failed
+        heap_exhausted(0); // everything else is valid: an allocation in the library or zlib has failed
     out->failed |= !written || !ended;
 }

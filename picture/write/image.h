@@ -1,8 +1,8 @@
-// A finished picture: linear floats, from there to displayed bytes and files in memory.
+// A finished picture: linear floats, converted to displayed bytes and files in memory.
 //
 // tone.c is the one place where tone, transfer and rounding to 8 bits happen (docs/language.md, "Output"):
-// mean -> tone -> transfer -> floor(255 * clamp(c) + 1/2). The float formats hold the mean before them.
-// A pixel with a channel that is not a number is a fault of the renderer, and marked: magenta in bytes
+// mean -> tone -> transfer -> floor(255 * clamp(c) + 1/2). The float formats hold the mean before these
+// steps. A pixel with a channel that is not a number is a fault of the renderer, and marked: magenta in bytes
 // (whatever tone and transfer) and in HDR; PFM keeps it.
 // Ownership: image_finish frees the pixels. Errors: writers set out->failed when memory runs out.
 // Thread safety: an image is plain data; writers work on as many threads as there are processors.
@@ -21,11 +21,11 @@ enum image_compression {
     IMAGE_UNCOMPRESSED,
 };
 
-// How a file is coded, where its format leaves a choice; zeros: by default.
+// How a file is coded where its format leaves a choice; 0: the default.
 struct image_coding {
     unsigned bits;        // per channel: PNG 8 or 16, OpenEXR 16 or 32; 0: 8, and 32
-    unsigned quality;     // 1 to 100, of JPEG and WebP, where 100 is lossless; 0: IMAGE_QUALITY
-    unsigned compression; // enum image_compression, of OpenEXR
+    unsigned quality;     // 1 to 100, for JPEG and WebP (100: lossless WebP); 0: IMAGE_QUALITY
+    unsigned compression; // enum image_compression, for OpenEXR
 };
 
 enum {
@@ -54,9 +54,9 @@ struct image {
     float *rgb;       // three per pixel, row 0 on top
     const char *note; // a line of ASCII for the file's head, filed under IMAGE_NOTE_KEYWORD; not owned; NULL:
                       // none
-    struct image_texts texts; // more of them, at most IMAGE_TEXTS_MOST
+    struct image_texts texts; // more lines, at most IMAGE_TEXTS_MOST
     struct image_coding coding;
-    const struct image_layers *layers; // of OpenEXR (exr_file.h), beside its colours; not owned; NULL: none
+    const struct image_layers *layers; // in OpenEXR (exr_file.h) beside its colours; not owned; NULL: none
 };
 
 // How linear values are displayed: the words of the scene's image element.
@@ -67,8 +67,7 @@ struct image_display {
 
 // Black; false: no memory. width and height are at least 1.
 bool image_init(struct image *image, uint32_t width, uint32_t height);
-// The same of one that was there, which is kept where it has this size already; its pixels are not black
-// then.
+// The same for an existing image, which is kept if it already has this size; its pixels are then not black.
 bool image_fit(struct image *image, uint32_t width, uint32_t height);
 void image_finish(struct image *image);
 
@@ -81,12 +80,12 @@ static inline bool image_is_marked(const float rgb[3]) {
 void image_to_bytes(const struct image *image, struct image_display display, uint8_t *bytes);
 // The same rounded to 16 bits, the higher byte first: 6 * width * height.
 void image_to_words(const struct image *image, struct image_display display, uint8_t *bytes);
-// The same before rounding: 0..1, what is not a number is 0. `displayed` may be `linear`.
+// The same before rounding: 0..1, NaN is 0. `displayed` may be `linear`.
 void image_to_displayed(const float *linear, size_t pixels, struct image_display display, float *displayed);
 
 // Texts are text chunks of a PNG, comments of a JPEG and in the head of an HDR, and attributes of an OpenEXR
-// ("Scene hash": sceneHash). A WebP does not have them, a PFM has no room for one; a JPEG leaves out one of
-// more than 64 KiB.
+// ("Scene hash": sceneHash). A WebP does not have them, and a PFM has no room for them; a JPEG leaves out a
+// text of more than 64 KiB.
 #define IMAGE_NOTE_KEYWORD "Accuracy"
 // Appends the whole file to `out`; IMAGE_WRITTEN, and not image_format_missing. `display` is for formats of
 // displayed values.

@@ -1,10 +1,10 @@
 // The data of a PNG: rows filtered (ISO/IEC 15948, clause 9) and deflated (RFC 1950, 1951) on all processors.
 //
-// Rows are filtered as libpng does by default: of the five filters the one whose bytes, taken as signed, have
-// the least sum of sizes. The filtered bytes are cut into pieces of a fixed size; each is deflated by itself,
-// with what is before it as its dictionary, and ended on a byte (Z_SYNC_FLUSH), so that all of them one after
-// the other are one stream: the method of pigz (M. Adler). So the bytes do not depend on the number of
-// threads. Errors: false, no memory. Ownership: png_data_finish frees. Thread safety: plain data.
+// Rows are filtered as libpng does by default: the chosen filter of the five is the one whose bytes, taken as
+// signed, have the least sum of magnitudes. The filtered bytes are cut into pieces of a fixed size; each is
+// deflated by itself, with the bytes before it as its dictionary, and ends on a byte boundary (Z_SYNC_FLUSH),
+// so that all together form one stream: the method of pigz (M. Adler). So the bytes do not depend on the
+// number of threads. Errors: false, no memory. Ownership: png_data_finish frees. Thread safety: plain data.
 #ifndef GLINT_PICTURE_WRITE_PNG_DATA_H
 #define GLINT_PICTURE_WRITE_PNG_DATA_H
 
@@ -14,7 +14,7 @@
 
 enum {
     PNG_PIECE = 128 << 10,
-    PNG_WINDOW = 32 << 10, // that deflate looks back
+    PNG_WINDOW = 32 << 10, // how far deflate looks back
 };
 
 // A part of the stream, which goes into a chunk of its own.
@@ -35,8 +35,8 @@ bool png_data_make(uint32_t width, uint32_t height, uint32_t pixel, const uint8_
 // Accepts what png_data_make left, whatever it returned.
 void png_data_finish(struct png_data *data);
 
-// The same of `size` filtered bytes, at least one, that follow `before` others: the last PNG_WINDOW of the
-// stream, or 0 where it begins. Unless the stream ends with them, `size` is a multiple of PNG_PIECE.
+// The same for `size` filtered bytes, at least one, that follow `before` others: the last PNG_WINDOW bytes of
+// the stream, or 0 at its beginning. Unless the stream ends with them, `size` is a multiple of PNG_PIECE.
 bool png_data_deflate(const uint8_t *filtered, size_t before, size_t size, bool is_last,
                       struct png_data *out);
 

@@ -1,4 +1,4 @@
-// Which filter each row of a PNG gets, and the row through it.
+// Chooses the filter for each row of a PNG, and filters the row.
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "picture/write/png_data.h"
@@ -21,7 +21,7 @@ struct filtering {
     atomic_bool failed;
 };
 
-// A row, and the one above it, each after a pixel of zeros; and the row through each filter.
+// A row and the one above it, each after a pixel of zeros; and the row after each filter.
 struct rows {
     uint8_t *row, *above;
     uint8_t *through[FILTERS];
@@ -47,7 +47,7 @@ static int distance(int a, int b) {
     return a < b ? b - a : a - b;
 }
 
-// Of left, above and above left the one nearest to left + above - above left (clause 9.4).
+// Returns whichever of left, above and above left is nearest to left + above - above left (clause 9.4).
 static uint8_t paeth(int a, int b, int c) {
     const int to_a = distance(b, c), to_b = distance(a, c), to_c = distance(a + b, 2 * c);
     const int other = to_b <= to_c ? b : c;

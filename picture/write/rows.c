@@ -9,7 +9,7 @@ bool image_rows_can(enum image_format format) {
     return format == IMAGE_PNG || format == IMAGE_PFM || format == IMAGE_HDR || format == IMAGE_EXR;
 }
 
-// Some rows as bytes of the file.
+// Writes some rows as bytes of the file.
 typedef void rows_encoder(uint32_t width, uint32_t rows, const float *rgb, struct strbuf *out);
 
 static bool put(const struct image_sink *sink, struct strbuf *out) {

@@ -7,9 +7,9 @@
 
 #include <stdint.h>
 
-// Of pixel `at` of `to` in a row: the two of `from` around its middle, and how far it is from the first.
+// For pixel `at` of `to` in a row: the two of `from` around its middle, and how far it is from the first.
 double scale_around(uint32_t at, uint32_t from, uint32_t to, uint32_t places[2]);
-// Three values a pixel, rows from the top.
+// Three values per pixel, rows from the top.
 void scale_picture(const float *in, uint32_t width, uint32_t height, float *out, uint32_t to_width,
                    uint32_t to_height);
 

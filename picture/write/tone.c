@@ -53,7 +53,7 @@ static float clamped(float c) {
     return c > 0 ? (c < 1 ? c : 1) : 0;
 }
 
-// What a colour's channels are divided by before clamping.
+// The divisor of a colour's channels before clamping.
 static float tone_divisor(const float c[3], unsigned tone) {
     float largest = 1;
     for (int i = 0; tone == IR_TONE_NORMALIZE && i < 3; i++)
@@ -93,7 +93,7 @@ void image_to_bytes(const struct image *image, struct image_display display, uin
     parallel_for((size_t)image->width * image->height, PIECE_PIXELS, convert_pixels, &job);
 }
 
-// To 16 bits there is no table: a power for each channel.
+// For 16 bits there is no table: one power per channel.
 static void word_pixels(void *context, size_t begin, size_t end) {
     const struct conversion *job = context;
     for (size_t i = begin; i < end; i++) {
