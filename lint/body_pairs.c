@@ -6,7 +6,7 @@ enum {
 };
 
 struct pairs {
-    const struct lint_body *body; // whose partners the search finds
+    const struct lint_body *body; // the body whose partners the search finds
     uint64_t left;
     bool stopped;
     lint_take_pair *take;
@@ -29,7 +29,7 @@ void lint_body_pairs(struct arena *arena, struct lint_box_item *items, uint32_t 
     lint_box_tree_build(&tree, arena, items, count);
     for (uint32_t i = 0; i < count && !p.stopped; i++) {
         p.body = items[i].of;
-        // Those after this one in the tree's order: each pair is met once.
+        // Only boxes after this one in the tree's order: each pair is met once.
         lint_box_tree_in_box(&tree, &items[i].box, i + 1, meet, &p);
     }
 }

@@ -1,9 +1,9 @@
-// Pairs of bodies whose boxes overlap, each once, found through a tree over the boxes: n bodies that lie
-// apart cost n log n, however they are arranged.
+// Finds pairs of bodies whose boxes overlap, each once, with a tree over the boxes: n bodies that lie apart
+// cost n log n, however they are arranged.
 //
-// Input: boxes of bodies of one array, which are put into another order. Where nearly all overlap nearly all,
-// the pairs are cut off at some number for each body, so that the work stays in proportion to the scene.
-// Ownership: the arena's, which must be guarded. Thread safety: one call belongs to one thread.
+// Input: boxes of bodies of one array, which are put into another order. If nearly all boxes overlap each
+// other, the pairs per body are limited, so that the work stays in proportion to the scene. Ownership: the
+// arena's, which must be guarded. Thread safety: one call belongs to one thread.
 #ifndef GLINT_LINT_BODY_PAIRS_H
 #define GLINT_LINT_BODY_PAIRS_H
 

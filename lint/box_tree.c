@@ -14,7 +14,7 @@ static double middle(const struct lint_box_item *item, int axis) {
     return vec3_along(vec3_add(item->box.lower, item->box.upper), axis);
 }
 
-// Of equal places the order of the scene decides, so that every run finds the same pairs.
+// Ties are broken by the order in the scene, so that every run finds the same pairs.
 static int compare(const struct lint_box_item *a, const struct lint_box_item *b, int axis) {
     double x = middle(a, axis), y = middle(b, axis);
     if (x != y)

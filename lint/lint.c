@@ -4,7 +4,7 @@
 
 // The rules in the order of their codes.
 const struct lint_rule lint_rules[] = {
-    // A walk for each solid through a tree of the cameras, rays only where its box holds one.
+    // For each solid a walk through a tree of the cameras; rays only where its box holds a camera.
     {DIAG_CAMERA_INSIDE, lint_camera_inside, LINT_ALL},
     {DIAG_LIGHT_INSIDE, lint_light_inside, LINT_ALL},
     // One pass over the bodies.
@@ -16,9 +16,10 @@ const struct lint_rule lint_rules[] = {
     {DIAG_UNSEEN, lint_unseen, LINT_ALL},
     {DIAG_UNUSED_MATERIAL, lint_unused_material, LINT_ALL},
     {DIAG_UNUSED_INCLUDE, lint_unused_include, LINT_ALL},
-    // A tree for each mesh and a walk for each leaf; then a walk through what pairs of bodies have in common.
+    // A tree for each mesh and a walk for each leaf; then a walk through the common part of each pair of
+    // bodies.
     {DIAG_COINCIDENT, lint_coincident, LINT_ALL},
-    // One pass over the triangles of each mesh, the second one with a hash table.
+    // One pass over the triangles of each mesh, and a second one with a hash table.
     {DIAG_ZERO_AREA, lint_zero_area, LINT_ALL},
     {DIAG_DUPLICATE_TRIANGLES, lint_duplicates, LINT_ALL},
     // For meshes that refract: a tree and a walk for each leaf; then connected parts.
@@ -28,14 +29,14 @@ const struct lint_rule lint_rules[] = {
     {DIAG_OPPOSING_NORMALS, lint_opposing_normals, LINT_ALL},
     // The header of one image.
     {DIAG_OVERSIZED_IMAGE, lint_oversized_image, LINT_ALL},
-    // Refracting bodies whose boxes overlap; of meshes the faces that they have in common. W419 too.
+    // Refracting bodies whose boxes overlap; for meshes their common faces. W419 too.
     {DIAG_MEDIA_OVERLAP, lint_media, LINT_ALL},
     // One pass over the bodies.
     {DIAG_NO_EFFECT, lint_attenuation, LINT_ALL},
     // A few thousand rays, or triangles, for each camera and body with an image or a checker that nothing
     // filters.
     {DIAG_TOO_FINE, lint_too_fine, LINT_ALL},
-    // One pass over the lights; then the bodies for each of them that is a sphere.
+    // One pass over the lights; then one over the bodies for each spherical light.
     {DIAG_FEW_SAMPLES, lint_few_samples, LINT_CHEAP},
     {DIAG_LIGHT_AROUND, lint_light_around, LINT_ALL},
     // One value; one pass over the bodies.
@@ -50,11 +51,11 @@ const struct lint_rule lint_rules[] = {
     // One value each.
     {DIAG_SKY_SAMPLES, lint_sky_samples, LINT_CHEAP},
     {DIAG_SKY_DARK, lint_sky_dark, LINT_ALL},
-    // The boxes of bodies for each panel, up to the first that it lights.
+    // The boxes of bodies for each panel, up to the first one that it lights.
     {DIAG_PANEL_AWAY, lint_panel_away, LINT_ALL},
     // One pass over cameras and bodies.
     {DIAG_UNUSED_VALUE, lint_unused_value, LINT_ALL},
-    // The bodies whose boxes each panel overlaps; of meshes the faces there.
+    // The bodies whose boxes each panel overlaps; for meshes the faces there.
     {DIAG_PANEL_IN_PLANE, lint_panel_in_plane, LINT_ALL},
     // One pass over the bodies; three values.
     {DIAG_BLACK_MEDIUM, lint_black_medium, LINT_ALL},
@@ -87,7 +88,7 @@ void lint_run(const struct lint_input *input, enum lint_level level) {
                        .sink = input->files->sink,
                        .arena = &arena},
                       level};
-    // Sources that notes need lie in the scene's arena.
+    // Sources that notes need are in the scene's arena.
     struct arena *arenas[] = {&arena, input->files->arena, NULL};
     if (arena_guarded_all(arenas, run_rules, &run) != ARENA_FAULT_NONE)
         diag_add(input->files->sink, DIAG_OUT_OF_MEMORY, SPAN_NONE,

@@ -33,7 +33,7 @@ static void weigh(const struct lint *lint, struct lint_body *body) {
 
 static struct lint_mesh *mesh_of(struct lint *lint, const struct lint_body *body) {
     const struct mesh *mesh = body->is->mesh;
-    // Models of one mesh are mostly next to each other.
+    // Models of one mesh are usually next to each other.
     for (uint32_t i = lint->meshes.count; i > 0; i--)
         if (lint->meshes.items[i - 1]->mesh == mesh)
             return lint->meshes.items[i - 1];

@@ -13,10 +13,10 @@
 #include "scene/view.h"
 
 // 2^-20: a vertex in a file of six digits, and a coordinate after a few operations in single precision, are
-// known only to within this part of their size.
+// known only to within this fraction of their size.
 #define LINT_RESOLUTION 0x1p-20
 
-// Triangles of one mesh that get in each other's way, in file order.
+// Triangles of one mesh that cross or overlap each other, in file order.
 struct lint_pairs {
     uint32_t count;         // triangles that another one touches
     uint32_t first, second; // the first of them, and the first that it touches
@@ -26,10 +26,10 @@ struct lint_pairs {
 struct lint_mesh {
     const struct mesh *mesh;
     uint32_t model_count;
-    const struct lint_body *first;            // that shows it
+    const struct lint_body *first;            // that shows this mesh
     const struct lint_body *first_smooth;     // NULL: none
     const struct lint_body *first_refracting; // NULL: none
-    uint32_t source;                          // of its text; SOURCE_DEFAULT until a note needed it
+    uint32_t source;                          // of its text; SOURCE_DEFAULT until a note needs it
     double tolerance;                         // LINT_RESOLUTION of its largest coordinate
     bool has_tree;
     struct lint_tree tree; // lint_tree_of
@@ -37,7 +37,7 @@ struct lint_mesh {
     struct lint_pairs crossings, overlaps; // lint_find_pairs
 };
 
-// In IR order. Scenes may have a million of them: what is rarely needed is computed when it is.
+// In IR order. Scenes may have a million of them: rarely needed values are computed on demand.
 struct lint_body {
     const struct scene_body *is;
     struct lint_box box;    // around it, in scene units
@@ -60,7 +60,7 @@ struct lint {
         struct lint_mesh **items;
         uint32_t count, capacity;
     } meshes;
-    uint64_t pairs_spent; // by lint_find_pairs: boxes against boxes, at most
+    uint64_t pairs_spent; // by lint_find_pairs: an upper bound, in box tests
     struct view *views;   // one per camera, or the automatic one
     uint32_t view_count;
 };
@@ -80,12 +80,12 @@ const struct ir_material *lint_material(const struct lint *lint, const struct li
                                         uint32_t group);
 // Whether any body sends rays on: mirrors, or glass.
 bool lint_sends_rays_on(const struct lint *lint);
-// The triangles of a body that has some without a mesh; their number, 0 of other bodies.
+// The triangles of a body that has some without a mesh, and their number; 0 for other bodies.
 enum {
     LINT_FLAT_TRIANGLES = 2
 };
 uint32_t lint_flat_triangles(const struct lint_body *body, struct lint_triangle out[LINT_FLAT_TRIANGLES]);
-// Whether there is anything of the body: not where its mesh could not be loaded.
+// Whether there is anything of the body: false where its mesh could not be loaded.
 static inline bool lint_is_there(const struct lint_body *body) {
     return shape_is_there(body->is);
 }
@@ -104,20 +104,20 @@ span lint_place_mesh(const struct lint *lint, const struct lint_body *body);
 // A note at a line of a mesh file.
 void lint_note_mesh(struct lint *lint, struct lint_mesh *mesh, uint32_t line, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
-// A fix, not a safe one, of the last finding: another value of an element's row. A row that the file does not
-// have is written after `beside`, on a line of its own where that has one; without both there is no fix.
+// Adds a fix, not a safe one, to the last finding: another value for an element's row. A row that the file
+// lacks is written after `beside`, on its own line if `beside` has one; if both are missing there is no fix.
 void lint_fix_row(struct lint *lint, const struct ir_head *head, const struct schema_element *schema,
                   const char *row, const char *beside, const char *value);
 
 struct lint_rule {
     diag_code code;
     void (*run)(struct lint *lint);
-    enum lint_level level; // the least one that runs it
+    enum lint_level level; // the lowest level that runs it
 };
-// In lint.c, in the order of their codes; one without `run` ends them.
+// In lint.c, in the order of their codes; ends with one without `run`.
 extern const struct lint_rule lint_rules[];
 
-// The rules, a family a file.
+// The rules, one family per file.
 void lint_camera_inside(struct lint *lint); // rules_inside.c
 void lint_light_inside(struct lint *lint);
 void lint_index_one(struct lint *lint); // rules_material.c

@@ -1,4 +1,4 @@
-// Faces that lie in the same plane and cover each other: which one is seen is decided by rounding.
+// Faces that lie in the same plane and cover each other: rounding decides which one is seen.
 //
 // Within a mesh: lint_find_pairs. Between bodies: those at equal places first, then each pair whose boxes
 // overlap (body_pairs.c), the faces of the smaller body against the tree of the larger one. Two faces count
@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A few units of the last place of a single at the distance of the camera.
+// A few units in the last place of single precision at the camera's distance.
 #define NEAR 0x1p-22
 
 enum {
@@ -37,7 +37,7 @@ static void check_mesh(struct lint *lint, struct lint_mesh *mesh) {
 
 // ---- bodies at equal places
 
-// What a body's place and shape depend on. All are as wide as each other, where pointers are narrower too:
+// What a body's place and shape depend on. All fields have the same width, even where pointers are narrower:
 // there is no padding, whose bytes would count.
 struct place {
     affine3 object_to_world;
@@ -104,9 +104,9 @@ struct search {
     struct lint *lint;
     const struct lint_body *a, *b; // faces of `a` against those of `b`
     affine3 back_b;                // into the object space of its mesh
-    struct lint_box own, other;    // what of `a` and of `b` can count, in the object spaces of their meshes
-    struct lint_face face;         // of `a`, in scene units
-    uint32_t triangle;             // of `a`
+    struct lint_box own, other; // parts of `a` and `b` that can count, in the object spaces of their meshes
+    struct lint_face face;      // of `a`, in scene units
+    uint32_t triangle;          // of `a`
     double near;
     uint64_t *work_left;
     uint32_t count;
@@ -143,7 +143,7 @@ static void compare_faces(struct search *s, struct lint_triangle triangle, uint3
     s->count++;
 }
 
-// Leaves hold several triangles, of which most are not where their box is searched.
+// Leaves hold several triangles, most of which lie outside the box that is searched.
 static bool is_in(const struct lint_triangle *t, const struct lint_box *box) {
     const struct lint_box own = lint_box_of(t);
     return lint_boxes_overlap(&own, box);

@@ -1,8 +1,8 @@
 // Whether max_depth reaches through the layers of glass that the cameras see.
 //
-// A grid of rays goes straight on through all that refracts; the surfaces that it crosses, up to the first
-// opaque one and as long as its throughput is at least min_weight, are the depth that it needs. Bending is
-// left out: it moves the layers in the picture, and hardly changes their number.
+// A grid of rays goes straight through everything that refracts; the number of surfaces that a ray crosses,
+// up to the first opaque one and while its throughput is at least min_weight, is the depth that it needs.
+// Bending is ignored: it moves the layers in the picture, but hardly changes their number.
 #include "diag/codes/rule.h"
 #include "lint/lint_internal.h"
 
@@ -18,7 +18,7 @@ enum {
     COLUMNS = 96, // of the grid, at most
     HITS_MAX = 256,
     WORK_MAX = 20000000,    // rays times bodies
-    RAY_WORK_MAX = 1 << 12, // triangles that one ray may try: a fan of needles has them all in its way
+    RAY_WORK_MAX = 1 << 12, // triangles that one ray may try: in a fan of needles it meets them all
 };
 
 struct crossing {
@@ -112,7 +112,7 @@ static int compare_crossings(const void *a, const void *b) {
     return x->t < y->t ? -1 : x->t > y->t;
 }
 
-// 0 where a ray's work ends first: what was not tried may be in front of all glass.
+// 0 where the ray's work limit is reached first: an untried triangle may be in front of all glass.
 static double nearest_opaque(const struct glass *glass, vec3 origin, vec3 direction) {
     struct ray_hits hits = {.count = 0};
     double nearest = INFINITY;
@@ -128,7 +128,7 @@ static double nearest_opaque(const struct glass *glass, vec3 origin, vec3 direct
     return hits.tried < RAY_WORK_MAX ? nearest : 0;
 }
 
-// What a ray is inside, that entered first in front.
+// What a ray is inside, in the order in which it entered.
 struct layers {
     const struct lint *lint;
     uint32_t inside[HITS_MAX];
@@ -146,7 +146,7 @@ static const struct scene_material *filling(const struct layers *l) {
     return found;
 }
 
-// Enters the body, or leaves it.
+// Enters the body, or leaves it if the ray is inside.
 static void cross(struct layers *l, uint32_t body) {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < l->count; i++)
@@ -167,14 +167,15 @@ static bool passes(struct layers *l, uint32_t body) {
     return before && after && scene_compare_media(before, after) == 0;
 }
 
-// The camera's: what the ray crosses an odd number of times.
+// Where the camera is: inside what the ray crosses an odd number of times.
 static void begin_inside(struct layers *l, const struct ray_hits *hits) {
     for (uint32_t i = hits->count; i-- > 0;)
         if (scene_is_medium(l->lint->scene, l->lint->bodies[hits->items[i].body].is))
             cross(l, hits->items[i].body);
 }
 
-// Surfaces that the ray passes before `end`, while its throughput is enough for it to be traced.
+// Counts the surfaces that the ray passes before `end`, while its throughput is high enough for it to be
+// traced.
 static uint32_t count_layers(const struct lint *lint, const struct ray_hits *hits, double end) {
     struct layers l = {.lint = lint};
     double throughput = 1;

@@ -42,8 +42,8 @@ static void report_image(struct lint *lint, const struct ir_material *material,
               weight[0] == 'd' ? "first" : "second");
 }
 
-// What says how light goes on inside of a body, of a material that lets none in. `fresnel` takes the index of
-// a varnish too.
+// Values about light inside a body, in a material that lets none in. `fresnel` also uses the index, as of a
+// varnish.
 static void look_inside(struct lint *lint, const struct ir_material *material) {
     const struct ir_weights *w = &material->albedo;
     if (w->refraction > 0)
@@ -139,7 +139,7 @@ static void look_at_samples(struct lint *lint) {
               "write the error at which pixels end, such as error: 0.01, or leave 'min_samples' out");
 }
 
-// Of what no body has W408 speaks; files of meshes say more than they use.
+// W408 reports materials that no body has; mesh files define more than they use.
 void lint_unused_value(struct lint *lint) {
     const struct scene *scene = lint->scene;
     bool *told = ARENA_ARRAY(lint->arena, bool, scene->assets->material_count);

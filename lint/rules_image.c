@@ -1,22 +1,23 @@
-// Images of more texels than a picture can show.
+// Images with more texels than a picture can show.
 #include "diag/codes/rule.h"
 #include "lint/lint_internal.h"
 
 #include "grammar/ir.h"
 
-// Texels along a line for each sample of the picture: sixteen times as many texels as samples.
+// Texels along a line per sample of the picture: sixteen times as many texels as samples.
 static const double EXCESS = 4;
 static const double TURN = 6.283185307179586477;
 
-// Samples for each radian of direction, at most: they are densest in the corners of the field, where the
-// direction turns least from pixel to pixel.
+// Samples per radian of direction, at most: they are densest in the corners of the field, where the direction
+// turns least from pixel to pixel.
 static double samples_per_radian(const struct lint *lint, const struct view_camera *camera) {
     const struct ir_image *image = lint->input->image;
     const double per_sample = sqrt(image->samples) * image->height;
-    // All rays of a pinhole see one place of the image; a lens spreads them by about its part of the focus.
+    // All rays of a pinhole see one place of the image; a lens spreads them by roughly its radius over its
+    // focus distance.
     if (camera->projection == IR_PROJECTION_ORTHOGRAPHIC)
         return camera->lens_radius > 0 ? per_sample * camera->focus / camera->lens_radius : INFINITY;
-    // Near its poles a panorama has more samples than anybody needs, as the image has texels.
+    // Near its poles a panorama has more samples than needed, just as the image has texels.
     if (camera->projection == IR_PROJECTION_PANORAMA)
         return fmax(per_sample, sqrt(image->samples) * image->width / 2) / (TURN / 2);
     // Away from the middle a fisheye's circles have more samples than their angle has places.

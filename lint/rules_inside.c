@@ -7,12 +7,12 @@
 #include "scene/shape.h"
 
 enum {
-    WORK_MAX = 8000000, // bodies against trees of cameras, or lights: further ones are not looked at
+    WORK_MAX = 8000000, // bodies against trees of cameras or lights: later ones are not looked at
 };
 
 // ---- cameras
 
-// A room: what is inside an opaque body is lit there, and the camera inside sees it.
+// A room: the inside of an opaque body is lit, and the camera inside sees it.
 static bool holds_light(struct lint *lint, const struct lint_body *body) {
     const struct view *view = &lint->views[0];
     if (!vec3_is_zero(lint->scene->ambient) && lint->scene->occlusion == 0)
@@ -57,7 +57,8 @@ static bool take_camera(void *context, const void *of) {
     return true;
 }
 
-// The tree is over the cameras, which are mostly few; bodies come in their order, as for lights.
+// The tree is over the cameras, of which there are usually few; bodies are visited in their order, as for
+// lights.
 void lint_camera_inside(struct lint *lint) {
     const uint32_t count = lint->ir->cameras.count;
     struct lint_box_item *items = ARENA_ARRAY(lint->arena, struct lint_box_item, count);
@@ -104,7 +105,7 @@ static bool measure(void *context, uint32_t first, uint32_t count) {
     return true;
 }
 
-// How far the point is from the body's surface, where that is at most `near`; *triangle of a mesh.
+// Whether the point is at most `near` from the body's surface; *triangle: where, on a mesh.
 static bool is_on(struct lint *lint, const struct lint_body *body, vec3 point, double near,
                   uint32_t *triangle) {
     const affine3 *map = &body->is->object_to_world;
@@ -147,10 +148,10 @@ static bool any_camera_inside(struct lint *lint, const struct lint_body *body) {
 struct light_finding {
     const struct lint_body *body; // NULL: nothing
     bool is_on;
-    uint32_t triangle; // that it is on, of a mesh
+    uint32_t triangle; // on which it lies, of a mesh
 };
 
-// Whether it is a sphere that is not all inside the body: then some of its light comes out.
+// Whether it is a sphere that is not entirely inside the body: then some of its light gets out.
 static bool reaches_out(const struct ir_light *light, const struct lint_body *body, double near) {
     const double radius = light->radius;
     const vec3 p = light->position, lower = body->box.lower, upper = body->box.upper;
@@ -164,13 +165,13 @@ static bool reaches_out(const struct ir_light *light, const struct lint_body *bo
 
 static struct light_finding judge_light(struct lint *lint, const struct ir_light *light,
                                         const struct lint_body *body) {
-    // A few units of the last place that single precision keeps of the light's and the body's coordinates.
+    // A few units in the last place of the light's and the body's coordinates in single precision.
     double near = LINT_RESOLUTION * fmax(body_size(body), vec3_max_abs(light->position));
     struct lint_box reach = lint_box_grow(body->box, near);
     struct light_finding found = {.body = NULL};
     if (!lint_box_holds(&reach, light->position) || reaches_out(light, body, near))
         return found;
-    // Light shines through what refracts, wherever it comes from.
+    // Light shines through bodies that refract, wherever it comes from.
     const bool shines = lint->ir->trace.transparent_shadows && !body->is_opaque && body->is->closed;
     found.is_on = is_on(lint, body, light->position, near, &found.triangle);
     if (found.is_on ||
@@ -229,8 +230,8 @@ static uint32_t collect_lights(const struct lint *lint, struct lint_box_item *it
         const struct ir_light *light = &lint->ir->lights.items[i];
         if (light->kind != IR_LIGHT_POSITION)
             continue;
-        // Twice what judge_light allows for the light's size: a body that has a light within its reach must
-        // find it here, however the sums round.
+        // Twice what judge_light allows for the light's size: a body with a light within its reach must be
+        // found here, however the sums round.
         double near = 2 * LINT_RESOLUTION * vec3_max_abs(light->position);
         struct lint_box point = {light->position, light->position};
         items[count++] = (struct lint_box_item){lint_box_grow(point, near), light};
@@ -238,8 +239,8 @@ static uint32_t collect_lights(const struct lint *lint, struct lint_box_item *it
     return count;
 }
 
-// The tree is over the lights, which are mostly few; bodies come in their order, so that the first one that a
-// light is found in is the first of the scene.
+// The tree is over the lights, of which there are usually few; bodies are visited in their order, so the
+// first one found for a light is the first in the scene.
 void lint_light_inside(struct lint *lint) {
     uint32_t light_count = lint->ir->lights.count;
     if (!lint->ir->trace.shadows || light_count == 0)

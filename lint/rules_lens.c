@@ -1,4 +1,4 @@
-// Lenses and rough surfaces: where they cannot show what they are for, and where rays begin inside bodies.
+// Lenses and rough surfaces that cannot show their effect, and rays that begin inside bodies.
 #include "diag/codes/rule.h"
 #include "lint/lint_internal.h"
 
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 enum {
-    STARTS_A_SIDE = 5, // of the places where rays begin that are looked at
+    STARTS_A_SIDE = 5, // per side of the grid of places looked at where rays begin
 };
 
 static const struct ir_camera *camera_of(const struct lint *lint, uint32_t view) {
@@ -65,8 +65,7 @@ void lint_one_sample(struct lint *lint) {
 
 // ---- focus
 
-// How near and how far bodies are along the view, or from the camera where it looks all round; by their
-// boxes.
+// How near and how far bodies are, by their boxes: along the view, or from the camera if it looks all round.
 static bool reach_of_bodies(const struct lint *lint, const struct view_camera *camera, double *near,
                             double *far) {
     const bool ahead = camera->projection <= IR_PROJECTION_ORTHOGRAPHIC;
@@ -104,7 +103,7 @@ static void report_focus(struct lint *lint, const struct ir_camera *camera, cons
     diag_help(lint->sink, "bodies are from %.6g to %.6g away", fmax(near, 0), far);
 }
 
-// Whether the body that a camera is focused on is known not to be before it.
+// Whether the body that a camera focuses on is certainly not in front of it.
 static bool is_behind(const struct lint *lint, const struct ir_camera *camera,
                       const struct view_camera *view) {
     const bool ahead = view->projection <= IR_PROJECTION_ORTHOGRAPHIC;
@@ -157,7 +156,7 @@ static vec3 start_at(const struct lint *lint, const struct view_camera *camera, 
                                                vec3_mul(camera->up, y * (height + camera->lens_radius))));
 }
 
-// A body of whose surface some rays begin on the other side than the camera stands.
+// A body for which some rays begin on the other side of its surface than the camera.
 static const struct lint_body *between_starts(struct lint *lint, const struct view_camera *camera) {
     const double step = 2.0 / (STARTS_A_SIDE - 1);
     for (uint32_t k = 0; k < lint->body_count; k++) {
@@ -199,7 +198,7 @@ static bool fits_panorama(const struct ir_image *image) {
     return abs(image->width - 2 * image->height) <= 2;
 }
 
-// Of an only camera: several share one size, whatever their projections are.
+// For a single camera: several share one size, whatever their projections.
 void lint_panorama(struct lint *lint) {
     const struct ir_image *image = &lint->ir->image, *rendered = lint->input->image;
     const struct ir_camera *camera = lint->ir->cameras.count == 1 ? camera_of(lint, 0) : NULL;

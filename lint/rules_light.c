@@ -20,7 +20,7 @@ static void fix_samples(struct lint *lint, str samples) {
                  samples);
 }
 
-// Of lights with an extent, `count` of them; else of ambient light that bodies block.
+// Reports `count` lights with an extent; else ambient light that bodies block.
 static void report_few_samples(struct lint *lint, const struct ir_light *first, uint32_t count) {
     const struct ir_ambient *ambient = &lint->ir->ambient;
     if (first)
@@ -77,10 +77,10 @@ static bool find_camera(struct lint *lint, const struct ir_light *light) {
 }
 
 enum {
-    WORK_MAX = 20000000, // lights times bodies: further ones are not looked at
+    WORK_MAX = 20000000, // lights times bodies: later ones are not looked at
 };
 
-// Whether it is a lamp in the middle of the light: rays to the light end before it.
+// Whether it is a lamp with the light at its centre: rays to the light end before the lamp.
 static bool is_lamp(const struct lint *lint, const struct ir_light *light, const struct lint_body *body) {
     const vec3 middle = body->is->object_to_world.offset;
     return body->is->shape == SCENE_SPHERE && vec3_length(vec3_sub(middle, light->position)) == 0 &&
@@ -114,7 +114,7 @@ void lint_ambient(struct lint *lint) {
         return; // switched off
     const span at = ir_place_label(lint->origin, &ambient->head);
     if (black) {
-        // Of an intensity the colour is what it multiplies.
+        // An intensity multiplies the colour.
         const bool has_intensity =
             ambient->head.written >> schema_find_row(&SCHEMA_AMBIENT, STR("intensity")) & 1;
         const char *row = has_intensity ? "intensity" : "occlusion", *value = has_intensity ? "1" : "0.2";

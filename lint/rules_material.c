@@ -7,7 +7,7 @@
 #include "scene/media.h"
 #include "scene/shape.h"
 
-// Growth over all bounces below this is only an error in the last digit of each weight.
+// Growth over all bounces below this is merely an error in the last digit of each weight.
 static const double GROWTH_MIN = 2;
 
 static str number(struct lint *lint, double value) {
@@ -37,8 +37,8 @@ static void report_index(struct lint *lint, const struct lint_body *body,
               "write refractive_index: 1.5 for glass, 1.33 for water; for a thin pane use a rectangle");
 }
 
-// Whether a body around it may have another index, as an air bubble in glass, or it is seen by its colour:
-// then 1 is meant.
+// Whether index 1 is meant: a surrounding body may have another index, as with an air bubble in glass, or the
+// body is seen by its colour.
 static bool is_meant(const struct lint *lint, const struct lint_body *body,
                      const struct ir_material *material) {
     const uint32_t index = (uint32_t)(material - lint->scene->assets->materials);
@@ -77,7 +77,7 @@ void lint_index_one(struct lint *lint) {
 
 struct cycle {
     const struct lint_body *a, *b; // the same where light can go round within one
-    double gain;                   // of one bounce on each
+    double gain;                   // of one bounce on each body
 };
 
 static const struct ir_material *strongest(const struct lint *lint, const struct lint_body *body) {
@@ -91,8 +91,8 @@ static const struct ir_material *strongest(const struct lint *lint, const struct
 }
 
 // Light that leaves a convex mirror does not come back to it by itself; inside glass, and between the parts
-// of a mesh, it does. Of all cycles the worst is one body alone or the two strongest: in any other cycle some
-// two neighbours have no smaller product, since the cycle's mean is no larger than theirs.
+// of a mesh, it does. The worst cycle is one body alone or the two strongest bodies: any other cycle has two
+// neighbours whose product is no smaller, since the cycle's mean is no larger than theirs.
 static struct cycle worst_cycle(const struct lint *lint) {
     struct cycle worst = {0};
     const struct lint_body *first = NULL;
@@ -169,7 +169,7 @@ void lint_attenuation(struct lint *lint) {
         const char *row = lint_is_written(&material->head, &SCHEMA_MATERIAL, "attenuation_color")
                               ? "attenuation_color"
                               : "attenuation_distance";
-        // What no body has is reported as such (W408).
+        // Materials that no body has are reported as such (W408).
         if (!used[i] || material->head.origin == 0 ||
             !lint_is_written(&material->head, &SCHEMA_MATERIAL, row) || (colored && shown[i]))
             continue;
@@ -186,7 +186,7 @@ void lint_attenuation(struct lint *lint) {
 
 // ---- media in which light ends at once
 
-// Of what nothing is left; empty: something is of each.
+// The channels of which nothing is left; empty: something is left of each.
 static const char *channels_gone(vec3 left) {
     static const char *const names[] = {"",     "red",         "green",         "red or green",
                                         "blue", "red or blue", "green or blue", "red, green or blue"};

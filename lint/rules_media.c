@@ -3,8 +3,8 @@
 //
 // Pairs whose boxes overlap (body_pairs.c). Spheres are compared by their distance; a sphere and a mesh by
 // the mesh's nearest and farthest points; two meshes by faces that cut each other, and else by points just
-// below the faces of one that are inside the other. Bodies that touch are apart: a share of the smaller one's
-// size counts as touching, since what is written with few digits overlaps by a hair.
+// below the faces of one that are inside the other. Bodies that touch count as apart: an overlap within a
+// fraction of the smaller one's size is touching, since values written with few digits overlap by a hair.
 #include "core/angle.h"
 #include "diag/codes/limit.h"
 #include "diag/codes/rule.h"
@@ -22,15 +22,15 @@
 
 enum {
     FACES_MAX = 10000000,  // of meshes that are looked at
-    CROWDS_MAX = 20000000, // bodies around cameras: further cameras are not looked at
+    CROWDS_MAX = 20000000, // bodies around cameras: later cameras are not looked at
     SAMPLES = 512,         // points of one mesh that the search tries in another
     NOTED = 3,             // other bodies that one finding names
 };
 
 enum finding {
     FINDING_NONE,
-    FINDING_EQUAL,  // they cross with equal priority: what fills the place depends on where a ray comes from
-    FINDING_HIDDEN, // the inner one's priority is lower: it is never seen
+    FINDING_EQUAL,    // they cross with equal priority: the ray's origin decides which one fills the overlap
+    FINDING_HIDDEN,   // the inner one's priority is lower: it is never seen
     FINDING_RELATIVE, // the inner one's index is below 1: it was meant relative to the outer one's
 };
 
@@ -49,9 +49,9 @@ struct overlap {
 
 struct media {
     struct lint *lint;
-    uint64_t work_left;      // faces
-    uint32_t *around;        // by body: how many others it is inside of
-    int32_t highest, lowest; // priorities so far, with those that were advised
+    uint64_t work_left;      // faces left to test
+    uint32_t *around;        // by body: how many others it is inside
+    int32_t highest, lowest; // extreme priorities so far, including those advised
     struct {
         struct overlap *items;
         uint32_t count, capacity;
@@ -66,7 +66,7 @@ struct pair {
 
 // ---- which bodies
 
-// What fills the body.
+// The material that fills the body.
 static const struct scene_material *filling(const struct lint *lint, const struct lint_body *body) {
     return &lint->scene->materials[scene_medium_material(lint->scene, body->is)];
 }
@@ -124,7 +124,7 @@ static bool come_near(void *context, uint32_t first, uint32_t count) {
     return *approach->work_left > 0;
 }
 
-// Whether all of the mesh is nearer to the point.
+// Whether all of the mesh is nearer to the point than `distance`.
 static bool is_within(const struct lint_body *body, vec3 point, double distance) {
     const struct mesh *mesh = body->mesh->mesh;
     for (uint32_t i = 0; i < mesh->position_count; i++) {
@@ -199,7 +199,7 @@ static bool cut_each_other(const struct pair *p) {
     return c.cuts;
 }
 
-// Whether a point just below a face of `body` is inside `other`: *all of those that were tried.
+// Whether a point just below a face of `body` is inside `other`; *all: whether every point tried is.
 static bool is_some_inside(const struct pair *p, const struct lint_body *body, const struct lint_body *other,
                            bool *all) {
     struct lint *lint = p->media->lint;
@@ -250,7 +250,7 @@ static bool is_same_place(const struct lint_body *a, const struct lint_body *b) 
     return same;
 }
 
-// Of media, which are spheres and meshes.
+// Of media, which are only spheres and meshes.
 static bool is_sphere(const struct lint_body *body) {
     switch (body->is->shape) {
     case SCENE_SPHERE:
@@ -275,7 +275,7 @@ static enum relation relation_of(const struct pair *p) {
     return relation == INSIDE ? AROUND : relation == AROUND ? INSIDE : relation;
 }
 
-// No material of nature has an index below 1: inside another body it is meant as a share of that one's.
+// No natural material has an index below 1: inside another body it is meant relative to that body's index.
 static enum finding judge(const struct lint *lint, const struct overlap *overlap) {
     const struct scene_material *own = filling(lint, overlap->body), *other = filling(lint, overlap->other);
     if (scene_compare_media(own, other) == 0)
@@ -319,7 +319,7 @@ static int compare_overlaps(const void *left, const void *right) {
     return x->other < y->other ? -1 : x->other > y->other;
 }
 
-// What a drink is to its glass, and to the ice in it: larger than what it gives way to.
+// A drink compared with its glass, or with the ice in it: it is larger than the bodies that it gives way to.
 static bool gives_way(const struct media *media, const struct overlap *first, uint32_t count) {
     bool all = media->around[first->body - media->lint->bodies] == 0;
     for (uint32_t i = 0; i < count && all; i++)
@@ -327,7 +327,7 @@ static bool gives_way(const struct media *media, const struct overlap *first, ui
     return all;
 }
 
-// Above or below all others, so that what follows one piece of advice does not need another.
+// Above or below all others, so that following one piece of advice does not require another.
 static void advise_priority(struct media *media, const struct overlap *first, uint32_t count) {
     struct lint *lint = media->lint;
     const bool lower = gives_way(media, first, count);
@@ -423,7 +423,7 @@ static void find_media(struct lint *lint, struct lint_box_tree *tree) {
     lint_box_tree_build(tree, lint->arena, items, count);
 }
 
-// The same of cameras, where the bodies around one need not be inside each other.
+// The same for cameras, where the bodies around a camera need not be inside each other.
 static void report_crowded(struct lint *lint) {
     struct lint_box_tree tree;
     uint64_t work = 0;

@@ -1,5 +1,4 @@
-// Images and checkers that are finer than the pixels of the picture, where nothing takes the mean over a
-// pixel.
+// Images and checkers that are finer than the pixels of the picture, where no filter averages over a pixel.
 //
 // Rays through a grid over the picture find spheres and rectangles, and each triangle of a mesh counts with
 // the pixels that it covers. What lies in front of a body is left out: it covers fine parts and coarse ones
@@ -18,24 +17,26 @@ enum {
     WORK_MAX = 20000000,   // rays and triangles
 };
 
-// A pixel covers more than this many of an image's pixels, or cells of a checker, in its longer direction.
+// A pixel covers more than this many of an image's pixels, or cells of a checker, along its longer direction.
 static const double IMAGE_FINE = 2, CELL_FINE = 1;
-// An image that is filtered has more than this many for each sample, and so many in all that it matters.
+// An image that is filtered has more than this many texels per sample, and at least so many in total that it
+// matters.
 static const double EXCESS = 8, LARGE = 1 << 20;
-// Such pixels, without a filter, are at least this part of those that show the material, and of the picture.
+// Such pixels, without a filter, are at least this share of the pixels that show the material, and of the
+// picture.
 static const double SHARE_MIN = 0.3, PICTURE_MIN = 0.02;
 
-// What of a material is shown that is not one colour.
+// What a material shows that is not one plain colour.
 struct bare {
     bool filtered;                  // an image whose filter is auto
     const struct ir_texture *image; // NULL: a checker
-    const struct picture *picture;  // of it
+    const struct picture *picture;  // of the image
     vec3 u, v;                      // of an image: its pixels by surface coordinates (two count)
     double cell;                    // of a checker
 };
 
-// Pixels of the picture that show a material: all, and those for which it is too fine; and what a pixel
-// covers at least, in its shorter direction.
+// Pixels of the picture that show a material: all, and those where it is too fine; and the least that a pixel
+// covers along its shorter direction.
 struct shown {
     double pixels, fine, least;
 };
@@ -45,7 +46,7 @@ struct looking {
     const struct view_camera *camera;
     const struct lint_body *body;
     double aspect;
-    double rows; // of the pixels that filters take means over: of samples, with an error the least of them
+    double rows;         // of the pixels that filters average over: of samples, with an error the fewest
     struct bare *bare;   // by material
     struct shown *shown; // by material
 };
@@ -258,8 +259,7 @@ static void report(struct lint *lint, uint32_t material, const struct bare *bare
     diag_help(lint->sink, "write antialias: true in the checker, or larger cells");
 }
 
-// Of an image that is filtered: it is larger than it need be, if this holds everywhere and nothing magnifies
-// it.
+// For a filtered image: it is larger than it need be, if this holds everywhere and nothing magnifies it.
 static void report_oversized(struct lint *lint, uint32_t material, const struct bare *bare, double least) {
     const struct ir_material *m = &lint->scene->assets->materials[material];
     const struct picture *picture = bare->picture;

@@ -1,4 +1,4 @@
-// Panels that light nothing, and those in the plane of a face.
+// Panels that light nothing, and panels in the plane of a face.
 #include "diag/codes/rule.h"
 #include "lint/lint_internal.h"
 
@@ -8,7 +8,7 @@ enum {
     WORK_MAX = 20000000, // panels times bodies and triangles
 };
 
-// A few units of the last place that single precision keeps of the coordinates, as of places and lights.
+// A few units in the last place of the coordinates in single precision, as for cameras and lights.
 static const double NEAR = LINT_RESOLUTION;
 
 static span panel_place(const struct lint *lint, const struct view_light *light) {
@@ -112,7 +112,7 @@ static struct panel_search begin_search(const struct view_light *light, struct l
     return s;
 }
 
-// A body that is the panel's own surface keeps shadow rays off all that is in its plane (scene/view.h).
+// A body that is the panel's own surface keeps shadow rays away from everything in its plane (scene/view.h).
 void lint_panel_in_plane(struct lint *lint) {
     const struct view *view = &lint->views[0];
     uint64_t work = 0;

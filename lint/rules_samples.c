@@ -1,11 +1,11 @@
-// How many samples pixels take, and may take.
+// How many samples pixels take, and may take at most.
 #include "diag/codes/rule.h"
 #include "lint/lint_internal.h"
 
 #include "grammar/ir.h"
 
 enum {
-    SAMPLES_ENOUGH = 256, // for pixels to differ in how many they take
+    SAMPLES_ENOUGH = 256, // enough for pixels to differ in how many they take
 };
 
 static bool ends_none(const struct ir_image *image) {
@@ -17,7 +17,7 @@ static void advise(struct lint *lint, const char *row, const char *value, const 
     lint_fix_row(lint, &lint->ir->image.head, &SCHEMA_IMAGE, row, "error", value);
 }
 
-// Both must say so: the scene, which has the fault, and what will be rendered, which may have more samples.
+// Both must be at fault: the scene, and the image to be rendered, which may have more samples.
 void lint_never_ends(struct lint *lint) {
     const struct ir_image *image = &lint->ir->image;
     if (!(image->error > 0) || !ends_none(image) || !ends_none(lint->input->image))

@@ -32,7 +32,7 @@ void lint_self_overlap(struct lint *lint) {
 struct shell {
     uint32_t first;   // triangle with area
     double volume;    // signed, times 6
-    double magnitude; // of what was added: 2^-40 of it is rounding
+    double magnitude; // sum of magnitudes of the terms: 2^-40 of it is rounding
 };
 
 struct shells {
@@ -93,7 +93,7 @@ static void measure(struct lint *lint, struct shells *shells) {
 
 struct around {
     const struct shells *shells;
-    uint32_t own; // shell that is left out
+    uint32_t own; // the shell to leave out
     vec3 origin, direction;
     int sum;
 };
@@ -124,7 +124,7 @@ static bool surrounding(const struct shells *shells, uint32_t own, int *times) {
     return a.sum == b.sum;
 }
 
-// A point is inside a solid once or not at all: a shell that faces outwards is in nothing, one that faces
+// A point is inside a solid once or not at all: a shell that faces outwards is inside nothing; one that faces
 // inwards is the wall of a hollow in another.
 static bool is_wrong(const struct shells *shells, uint32_t root) {
     const struct shell *shell = &shells->items[root];
@@ -179,7 +179,7 @@ struct half_edge {
 };
 
 struct edges {
-    uint32_t *first; // by lower end: where its edges begin; one more ends the last
+    uint32_t *first; // by lower end: where its edges begin; one extra entry ends the last
     struct half_edge *items;
 };
 
@@ -192,7 +192,7 @@ static bool edge_of(const struct mesh *mesh, uint32_t triangle, int k, uint32_t 
     return a != b;
 }
 
-// By counting: in the order of triangles within each lower end.
+// A counting sort: in the order of triangles within each lower end.
 static struct edges list_edges(struct lint *lint, const struct mesh *mesh) {
     struct edges edges = {ARENA_ARRAY(lint->arena, uint32_t, (size_t)mesh->position_count + 1),
                           ARENA_ARRAY(lint->arena, struct half_edge, heap_times(3, mesh->triangle_count))};
@@ -230,7 +230,8 @@ static bool is_turned(const struct half_edge *edge, const struct half_edge *end,
     return *next - edge == 2 && edge[0].leads_down == edge[1].leads_down;
 }
 
-// Two faces at an edge that run along it the same way: one of them shows its back where the other its front.
+// Two faces that run along their common edge the same way: one shows its back where the other shows its
+// front.
 static void check_turned(struct lint *lint, struct lint_mesh *mesh) {
     struct edges edges = list_edges(lint, mesh->mesh);
     uint32_t turned = 0;
@@ -265,7 +266,7 @@ void lint_inside_out(struct lint *lint) {
         struct lint_mesh *mesh = lint->meshes.items[i];
         if (!mesh->first_refracting)
             continue;
-        // Parts that cross have no order; the rule above reported them.
+        // Parts that cross have no nesting order; the rule above has reported them.
         if (!mesh->mesh->closed)
             check_turned(lint, mesh);
         else if (mesh->crossings.count == 0)

@@ -50,7 +50,7 @@ static struct corners corners_of(const struct mesh *mesh, uint32_t triangle) {
 
 struct twins {
     uint32_t count;
-    uint32_t line, of_line; // of the first: the later face, and the one that it repeats
+    uint32_t line, of_line; // of the first pair: the later face, and the one that it repeats
 };
 
 static uint64_t hash_of(struct corners corners) {
@@ -96,7 +96,7 @@ static struct twins find_twins(struct lint *lint, const struct mesh *mesh, const
     return twins;
 }
 
-// Where a tree was made of all of its triangles, only those at one place on the curve can be twins.
+// If the tree holds all triangles, only those at the same place on the curve can be twins.
 static struct twins twins_of(struct lint *lint, const struct lint_mesh *mesh) {
     const uint32_t all = mesh->mesh->triangle_count;
     if (mesh->tree.crowded && mesh->tree.count == all)
@@ -122,7 +122,7 @@ void lint_duplicates(struct lint *lint) {
 
 // ---- normals
 
-// A normal along the face, which rounding tips over, does not count as opposing it.
+// A normal that lies in the face, which rounding may tip over, does not count as opposing it.
 static const double SLACK = 0.05;
 
 struct torn {
@@ -177,7 +177,7 @@ void lint_opposing_normals(struct lint *lint) {
         for (uint32_t t = 0; t < mesh->mesh->triangle_count; t++)
             if (mesh->mesh->zero_area == 0 || mesh_has_area(mesh->mesh, t))
                 look_at(mesh->mesh, t, &torn);
-        // Where all point to the back, a sheet or a mesh that was turned at load is only seen from there; but
+        // If all point to the back, a sheet or a mesh that was turned at load is merely seen from there; but
         // the normals of a closed body point into it.
         bool all_back = torn.opposed == torn.seen && !(mesh->mesh->closed && !mesh->mesh->turned);
         if (torn.count || (torn.opposed && !all_back))

@@ -24,8 +24,8 @@ static void put_plane(struct field *field, vec3 at, vec3 normal) {
     field->normals[field->planes++] = normal;
 }
 
-// Of rays through a lens: all that start beside the position by `reach` to the right and up, and leave by the
-// slopes.
+// The field of rays through a lens: all that start up to `reach` to the right and up of the position, and
+// leave within the slopes.
 static struct field field_with(const struct view_camera *camera, double right, double up,
                                const double reach[2]) {
     const vec3 p = camera->position, f = camera->forward, s = camera->right, u = camera->up;
@@ -59,8 +59,8 @@ static double greatest(const struct lint_box *box, vec3 normal, vec3 from) {
     return vec3_dot(normal, vec3_sub(corner, from));
 }
 
-// Whether the shadow of the box stays on the outer side of a plane that the box is outside of: each ray of
-// light through it leads on, away from the plane or along it.
+// Whether the shadow of a box stays outside a plane that the box is outside of: each ray of light through the
+// box goes on away from the plane, or along it.
 static bool shadow_stays(const struct lint_box *box, vec3 normal, const struct view_light *light) {
     const double size = vec3_length(normal);
     if (light->directional)
@@ -85,7 +85,7 @@ static bool is_outside(const struct lint *lint, const struct lint_box *box, cons
     return false;
 }
 
-// Where cameras see nothing at all, they are wrong, not the bodies.
+// If cameras see nothing at all, the cameras are wrong, not the bodies.
 static void report_cameras(struct lint *lint) {
     const struct ir_camera *camera = &lint->ir->cameras.items[0];
     span at = ir_place_value(lint->origin, &camera->head, &SCHEMA_CAMERA, "position");

@@ -1,4 +1,4 @@
-// What the scene holds and nothing uses.
+// Things in the scene that nothing uses.
 #include "diag/codes/rule.h"
 #include "grammar/ir_walk.h"
 #include "lint/lint_internal.h"
@@ -21,13 +21,13 @@ static bool *used_materials(struct lint *lint) {
     return found.used;
 }
 
-// A library for other files holds things that one of them uses and another does not.
+// A library shared by files holds things that one file uses and another does not.
 static bool is_of_main_file(const struct lint *lint, span at) {
     return lint->origin->files.count > 0 && at.source == lint->origin->files.items[0].source;
 }
 
 void lint_unused_material(struct lint *lint) {
-    // A scene without bodies is a library itself.
+    // A scene without bodies is itself a library.
     if (lint->body_count == 0)
         return;
     bool *used = used_materials(lint);
@@ -42,7 +42,7 @@ void lint_unused_material(struct lint *lint) {
     }
 }
 
-// Whether the file holds anything that shows: all but materials, and materials that are used.
+// Whether the file holds anything that shows: a used material, or anything other than a material.
 static bool adds_anything(const struct lint *lint, const struct ir_file_origin *file, const bool *used) {
     const struct ir_scene *own = file->scene;
     if (!own)

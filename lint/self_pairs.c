@@ -1,12 +1,12 @@
 // Triangles of one mesh against each other: each leaf of the tree asks for those that overlap its box.
 //
-// Each triangle looks for those after it on the curve and marks itself alone, so that the work can be cut.
-// Where there are marks, which good meshes have none of, those triangles then mark the others, one by one.
+// Each triangle looks for those after it on the curve and marks only itself, so that the work can be split.
+// Good meshes have no marks; otherwise the marked triangles then mark the others, one by one.
 //
-// Leaves next to each other on the curve walk the tree together, with the box around all of them; what that
-// finds, in the order of the curve, is then looked through for each of them. Boxes are compared as floats,
-// rounded outward, several at a time; what may overlap is decided in double precision, so that the same
-// pairs are found as without.
+// Leaves next to each other on the curve walk the tree together, with the box around all of them; each leaf
+// then searches the result, in the order of the curve. Boxes are compared as floats, rounded outward, several
+// at a time; possible overlaps are then decided in double precision, so the same pairs are found as without
+// floats.
 #include "lint/lint_internal.h"
 
 #include "core/parallel.h"
@@ -16,14 +16,14 @@
 enum {
     PIECE = 1 << 10,         // leaves of one piece of parallel work: some groups
     GROUP = 16,              // leaves that walk the tree together
-    NEAR_MAX = 1024,         // leaves that they may find; where there are more, each walks by itself
-    LANES = 8,               // of them that are compared at once
+    NEAR_MAX = 1024,         // leaves that a group may find; with more, each walks by itself
+    LANES = 8,               // found leaves that are compared at once
     WORK_MAX = 1 << 26,      // for all meshes: boxes against boxes
-    LEAF_WORK_MIN = 4096,    // for each leaf: some thousand in a good mesh, all of them in a fan of needles
+    LEAF_WORK_MIN = 4096,    // per leaf: some thousand in a good mesh, all in a fan of needles
     LEAF_WORK_MAX = 32768,   // where all triangles lie on each other, a few thousand pairs tell enough
     TRIANGLES_MAX = 1 << 23, // larger meshes are not searched: it would take gigabytes
     PAIR_WORK = 32,          // of two triangles, in boxes
-    LEAF_BOXES = LINT_LEAF + LINT_LEAF * LINT_LEAF * PAIR_WORK, // what a leaf against a leaf takes at most
+    LEAF_BOXES = LINT_LEAF + LINT_LEAF * LINT_LEAF * PAIR_WORK, // at most, for a leaf against a leaf
 };
 
 // Boxes of a leaf's triangles, in floats.
@@ -38,7 +38,7 @@ struct self {
     bool refracts;
     bool is_mutual;     // mark the other triangle too
     struct quad *quads; // of each leaf
-    uint32_t leaf_work; // for each leaf, in boxes
+    uint32_t leaf_work; // per leaf, in box tests
     uint32_t *crossed;  // in the order of the tree: the first triangle that crosses, plus 1
     uint32_t *covered;  // the first one in its plane that covers a part of it, plus 1
 };
@@ -63,8 +63,8 @@ struct near {
 
 // ---- floats
 
-// Not above and not below x, by at most a few units of the last place; NaN where x is beyond all floats,
-// which no comparison takes for apart.
+// Not above and not below x, by at most a few units in the last place; NaN where x is beyond all floats, so
+// that no comparison finds the boxes apart.
 static float rounded_down(double x) {
     const float f = (float)x;
     return f - fabsf(f) * FLT_EPSILON - FLT_MIN;
@@ -83,8 +83,8 @@ static void put_box(struct quad *quad, uint32_t k, const struct lint_box *box) {
     }
 }
 
-// How far two ranges are apart, as compilers make it of several at a time; not above 0 where they are not, or
-// where it is not a number.
+// How far apart two ranges are, in a form that compilers vectorise; not above 0 where they overlap, or where
+// it is not a number.
 static inline float gap(float lower_a, float upper_a, float lower_b, float upper_b) {
     const float after = lower_a - upper_b;
     const float before = lower_b - upper_a;
@@ -126,8 +126,8 @@ static void mark(const struct self *self, uint32_t *marks, uint32_t i, uint32_t 
         keep_first(&marks[j], self->tree->order[i]);
 }
 
-// What one of them has to do with the other's plane rules out nearly all neighbours, before the second normal
-// is made.
+// Testing one triangle against the other's plane rules out nearly all neighbours before the second normal is
+// computed.
 static void test_pair(const struct self *self, const struct leaf *leaf, uint32_t k, uint32_t j,
                       const struct lint_triangle *t) {
     const struct lint_face *own = &leaf->faces[k];
@@ -147,7 +147,7 @@ static void test_pair(const struct self *self, const struct leaf *leaf, uint32_t
 
 // ---- two leaves
 
-// A bit for each box of `quad` that box `j` of `other` may overlap.
+// One bit per box of `quad` that box `j` of `other` may overlap.
 static unsigned may_overlap(const struct quad *quad, const struct quad *other, uint32_t j) {
     float gaps[LINT_LEAF];
     unsigned bits = 0;
@@ -231,7 +231,7 @@ static bool gather(void *context, uint32_t first, uint32_t count) {
     return true;
 }
 
-// Whether the leaf goes on after `LANES` of those that were found, from `begin` on.
+// Looks at `LANES` of the found leaves, from `begin` on; false: the leaf stops.
 static bool visit_lanes(struct leaf *leaf, const struct near *near, uint32_t begin, const float lower[3],
                         const float upper[3]) {
     const struct lint_tree *tree = leaf->self->tree;
@@ -321,7 +321,7 @@ static struct lint_pairs count_pairs(const struct lint_tree *tree, const uint32_
     return pairs;
 }
 
-// What each leaf of a mesh may take: the first meshes of a scene get the most.
+// How much work each leaf of a mesh may take: the first meshes of a scene get the most.
 static uint32_t share_work(struct lint *lint, uint32_t leaf_count) {
     const uint64_t left = WORK_MAX - (lint->pairs_spent < WORK_MAX ? lint->pairs_spent : WORK_MAX);
     const uint64_t share = left / leaf_count;

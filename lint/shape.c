@@ -1,9 +1,9 @@
 #include "lint/shape.h"
 
-// A triangle that reaches through another by less than this part of its size does not cross it: rounded
+// A triangle that reaches through another by less than this fraction of its size does not cross it: rounded
 // corners of neighbours reach that far.
 static const double SHALLOW = 0.001;
-// Planes at a smaller angle count as parallel: where they intersect is left to rounding.
+// Planes at a smaller angle count as parallel: rounding alone would decide where they intersect.
 static const double PARALLEL_SINE = 1e-6;
 
 // ---- boxes and places
@@ -50,8 +50,8 @@ struct lint_face lint_face_of(struct lint_triangle triangle) {
     return (struct lint_face){triangle, vec3_unit(normal_of(&triangle))};
 }
 
-// How far the corners are from the plane, and how far the triangle reaches through it: the lesser of its two
-// sides, not above 0 where it does not.
+// The corners' distances from the plane, and how far the triangle reaches through it: the smaller of its two
+// sides, not above 0 if it does not.
 static double reach(const struct lint_triangle *t, const struct lint_face *plane, double d[3]) {
     for (int k = 0; k < 3; k++)
         d[k] = vec3_dot(plane->normal, vec3_sub(t->p[k], plane->t.p[0]));
@@ -77,7 +77,7 @@ static double longest_edge(const struct lint_triangle *t) {
     return sqrt(square);
 }
 
-// The part inside the triangle of the line in which the two planes intersect.
+// The part of the two planes' intersection line that lies inside the triangle.
 static void cut(const struct lint_triangle *t, const double d[3], vec3 along, vec3 origin, double *least,
                 double *greatest) {
     *least = INFINITY;
@@ -134,7 +134,8 @@ static void project(const struct lint_triangle *t, vec3 axis, vec3 origin, doubl
     *greatest = a > b ? a > c ? a : c : b > c ? b : c;
 }
 
-// Whether an edge of `a` separates them; so does an axis along which one of them is too narrow to decide.
+// Whether an edge of `a` separates them; an axis along which one is too narrow to decide counts as
+// separating.
 static bool is_parted(const struct lint_triangle *a, const struct lint_triangle *b, vec3 unit_normal,
                       double tolerance) {
     for (int k = 0; k < 3; k++) {

@@ -1,9 +1,9 @@
 // Triangles against triangles, points and rays, in double precision, with the caller's tolerances.
 //
-// A tolerance is a length: what is nearer counts as touching, never as crossing. That is what keeps good
-// meshes free of false alarms: a file with six digits places a vertex no better than 2^-20 of its
-// coordinates, which is a billion times the rounding of the double arithmetic here, so that no exact
-// predicates are needed. Thread safety: pure functions.
+// A tolerance is a length: what is nearer counts as touching, never as crossing. This keeps good meshes free
+// of false alarms: a file with six digits places a vertex no better than 2^-20 of its coordinates, which is a
+// billion times the rounding of the double arithmetic here, so no exact predicates are needed. Thread safety:
+// pure functions.
 #ifndef GLINT_LINT_SHAPE_H
 #define GLINT_LINT_SHAPE_H
 
@@ -25,7 +25,7 @@ struct lint_box {
     vec3 lower, upper;
 };
 
-// The empty box, which any point makes its own.
+// The empty box: adding a point makes it that point.
 static inline struct lint_box lint_box_empty(void) {
     return (struct lint_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 }
@@ -51,20 +51,20 @@ struct lint_box lint_box_place(struct lint_box box, const affine3 *place);
 struct lint_triangle lint_triangle_place(struct lint_triangle triangle, const affine3 *place);
 struct lint_face lint_face_of(struct lint_triangle triangle);
 
-// Whether they cut through each other: each has corners on both sides of the other's plane, and the parts in
-// which the planes' common line crosses them have a piece in common (Möller 1997), each of these by more than
-// the tolerance and a thousandth of the triangle's size. Triangles that share a corner or an edge do not.
+// Whether they cut through each other: each has corners on both sides of the other's plane, and the segments
+// of the planes' common line inside them overlap (Möller 1997), each of these by more than the tolerance and
+// a thousandth of the triangle's size. Triangles that share a corner or an edge do not.
 bool lint_faces_cross(const struct lint_face *a, const struct lint_face *b, double tolerance);
 // Whether they lie in the same plane (all six corners within `near` of the other's) and cover a common area,
 // wider than the tolerance and a hundredth of the narrower one in every direction (separating axes:
 // Gottschalk, Lin and Manocha 1996). Neighbours along an edge do not.
 bool lint_faces_coincide(const struct lint_face *a, const struct lint_face *b, double near, double tolerance);
-// What must hold of a triangle and another's plane for lint_faces_cross and lint_faces_coincide; cheaper, as
-// it needs one normal.
+// A necessary condition for lint_faces_cross and lint_faces_coincide on a triangle and another's plane;
+// cheaper, as it needs one normal.
 bool lint_reaches_through(const struct lint_triangle *triangle, const struct lint_face *plane,
                           double tolerance);
 bool lint_lies_near(const struct lint_triangle *triangle, const struct lint_face *plane, double near);
-// The point of a triangle that is nearest to `point` (Ericson 2005, section 5.1.5): its distance.
+// The distance from `point` to the nearest point of a triangle (Ericson 2005, section 5.1.5).
 double lint_triangle_distance(const struct lint_triangle *triangle, vec3 point);
 // Where the line origin + t·direction crosses the triangle: *t, and in *side 1 where it leaves along the
 // normal and -1 where it enters (Möller and Trumbore 1997, with signed volumes). false: it does not, or lies

@@ -11,7 +11,7 @@ enum {
     DIGIT_BITS = 11, // of the radix sort
     DIGITS = 6,      // enough for 63 bits
     CURVE_CELLS = 1 << 21,
-    CROWDED_PART = 8, // where more of the triangles are crowded, listing them saves nothing
+    CROWDED_PART = 8, // if a larger part of the triangles is crowded, listing them saves nothing
 };
 
 struct curve_entry {
@@ -54,7 +54,7 @@ static void code_piece(void *context, size_t begin, size_t end) {
     }
 }
 
-// Least digit first; a digit that all share is skipped.
+// Least digit first; a digit that all entries share is skipped.
 static struct curve_entry *sort_entries(struct curve_entry *entries, struct curve_entry *other,
                                         uint32_t count, struct arena *arena) {
     uint32_t *starts = ARENA_ARRAY(arena, uint32_t, (size_t)1 << DIGIT_BITS);
@@ -164,7 +164,8 @@ struct ray {
     vec3 origin, direction;
 };
 
-// Cuts [*enter, *leave] to where the ray is between two planes; grown by what the division rounds (Ize 2013).
+// Clips [*enter, *leave] to where the ray is between two planes; widened by what the division rounds (Ize
+// 2013).
 static void cut(double origin, double direction, double lower, double upper, double *enter, double *leave) {
     if (direction == 0) {
         if (origin < lower || origin > upper)
@@ -252,7 +253,7 @@ static bool wind(void *context, uint32_t first, uint32_t count) {
 }
 
 int lint_tree_winding(const struct lint_tree *tree, vec3 point) {
-    // Directions unrelated to those that people model in, so that a ray hardly ever hits an edge.
+    // Directions unrelated to those that people model in, so a ray hardly ever hits an edge.
     static const vec3 directions[3] = {{0.5403023058681398, 0.8414709848078965, 0.2955202066613396},
                                        {-0.6536436208636119, 0.4546487134128409, 0.7568024953079282},
                                        {0.2836621854632263, -0.6794193416919838, -0.9589242746631385}};

@@ -1,10 +1,10 @@
 // A tree of boxes over the triangles of a mesh, in mesh space and double precision.
 //
-// Triangles are sorted along a Morton curve (Lauterbach and others 2009) and halved by number, so that the
-// tree has no pointers: the node of leaves [begin, end) is followed by that of its first half. Triangles
-// without area are left out. Triangles with the same corners have the same place on the curve, so that those
-// that are there twice are among the crowded ones, of which good meshes have few. Ownership: the arena given.
-// Thread safety: immutable once built; building uses all processors.
+// Triangles are sorted along a Morton curve (Lauterbach and others 2009) and halved by number, so the tree
+// has no pointers: the node of leaves [begin, end) is followed by that of its first half. Triangles without
+// area are left out. Triangles with the same corners have the same place on the curve, so duplicates are
+// among the crowded ones, of which good meshes have few. Ownership: the arena given. Thread safety: immutable
+// once built; building uses all processors.
 #ifndef GLINT_LINT_TREE_H
 #define GLINT_LINT_TREE_H
 
@@ -23,7 +23,7 @@ struct lint_tree {
     uint32_t leaf_count;
     struct lint_box *nodes;  // 2 * leaf_count - 1
     struct lint_box *leaves; // those of the leaves again, by number
-    uint32_t *crowded;       // triangles that have their place on the curve with others; NULL: too many
+    uint32_t *crowded;       // triangles that share their place on the curve with others; NULL: too many
     uint32_t crowded_count;
 };
 
@@ -42,15 +42,15 @@ static inline struct lint_triangle lint_mesh_triangle(const struct mesh *mesh, u
 // Whether the line from `origin` along `direction` (t >= 0) enters the box.
 bool lint_box_on_ray(const struct lint_box *box, vec3 origin, vec3 direction);
 
-// Called with each leaf, entries [first, first + count) of `order`, whose box overlaps what was asked for;
-// false ends the walk.
+// Called with each leaf, entries [first, first + count) of `order`, whose box overlaps the query; false ends
+// the walk.
 typedef bool lint_tree_visit(void *context, uint32_t first, uint32_t count);
 void lint_tree_in_box(const struct lint_tree *tree, const struct lint_box *box, lint_tree_visit *visit,
                       void *context);
 // The same from leaf `from` on, in the order of the curve.
 void lint_tree_in_box_from(const struct lint_tree *tree, const struct lint_box *box, uint32_t from,
                            lint_tree_visit *visit, void *context);
-// Those that the line from `origin` along `direction` (any length, t >= 0) may hit.
+// The leaves that the line from `origin` along `direction` (any length, t >= 0) may hit.
 void lint_tree_on_ray(const struct lint_tree *tree, vec3 origin, vec3 direction, lint_tree_visit *visit,
                       void *context);
 

@@ -34,7 +34,7 @@ static bool is_second_wrong(const struct hit_pixel *d, const struct hit_pixel *r
     return d->reflected != r->reflected || d->refracted != r->refracted;
 }
 
-// The halves of a parallelogram are one face: on which side of its diagonal a ray hits shows nowhere.
+// The halves of a parallelogram are one face: the side of its diagonal that a ray hits never shows.
 static bool is_same_face(const struct comparing *c, const struct hit_pixel *d, const struct hit_pixel *r) {
     if (d->body != r->body)
         return false;

@@ -1,9 +1,8 @@
 // First hits compared with those of the reference: wrong hits, acne, leaks, holes.
 //
-// A pixel lies in the silhouettes' band where one of its eight neighbours hits another body in the
-// reference, or the same one more than a twentieth of the way nearer or further. It lies at a shadow's edge
-// where a neighbour of the same body is lit by other lights. Ownership: the caller's arrays. Thread safety:
-// pure.
+// A pixel lies in the silhouettes' band where one of its eight neighbours hits another body in the reference,
+// or the same one at a distance that differs by more than a twentieth. It lies at a shadow's edge where a
+// neighbour of the same body is lit by other lights. Ownership: the caller's arrays. Thread safety: pure.
 #ifndef GLINT_MEASURE_HIT_ERRORS_H
 #define GLINT_MEASURE_HIT_ERRORS_H
 
@@ -22,13 +21,13 @@ struct hit_errors {
     double wrong_second; // another body hit by the mirrored or the refracted ray, outside the band
 };
 
-// `scene`: whose bodies the hits name; nothing can be seen through those that are closed.
+// `scene`: the scene whose bodies the hits name; closed bodies cannot be seen through.
 void hits_compare(uint32_t width, uint32_t height, const struct hit_pixel *device,
                   const struct hit_pixel *reference, const struct scene *scene, struct hit_errors *out);
 
 // Pixels per million in which the background is seen, although neither the reference's pixel nor one of those
-// around it sees any: 3 values a pixel each, the weight of the background in its path (0: not seen; what is
-// not a number counts as seen).
+// around it sees any: 3 values per pixel each, the weight of the background in its path (0: not seen; NaN
+// counts as seen).
 double hits_escapes(uint32_t width, uint32_t height, const float *device, const double *reference);
 
 #endif

@@ -16,33 +16,34 @@
 
 enum {
     CELLS = 4600,             // pixels of the first look: if none is off, at most PRECISION_SHARE is, by RISK
-    LEAST_PIXELS = 192,       // of a look, whatever they cost; and of one that tells what they cost
+    LEAST_PIXELS = 192,       // of a look, whatever they cost; and of a look that measures their cost
     ALL_RAYS = 800000,        // of all looks, about
-    RAYS = 4096,              // of a sample at most, the heaviest ones
+    RAYS = 4096,              // of a sample at most, the heaviest rays
     SAMPLES_MOST = 8,         // of a pixel
-    LOOKED_SAMPLES = 1 << 17, // of all looks at a small picture, at most,
-    LOOKED_PART = 16,         // and at a large one: this part of its own
+    LOOKED_SAMPLES = 1 << 17, // of all looks at a small picture, at most
+    LOOKED_PART = 16,         // and at a large one: this fraction of its own
 };
-static const double RISK = 0.01; // that a look is wrong of the share of all pixels
+static const double RISK = 0.01; // that a look is wrong about the share of all pixels
 
 struct small {
     const struct precision_trial *trial;
     struct view view; // that of `reference`, too
     struct reference *reference;
     struct precision_gains device; // the scene in single precision, where there is a device
-    uint32_t look;                 // how many there were before
+    uint32_t look;                 // how many looks there were before
     uint32_t width, height;        // of this look
-    double apart;                  // so many of the picture's pixels lie between two of this look
-    bool whole;                    // all of the picture's are seen
-    uint32_t samples, all_samples; // of a pixel: that are traced; that the picture has
+    double apart;                  // this many of the picture's pixels lie between two of this look
+    bool whole;                    // all of the picture's pixels are seen
+    uint32_t samples, all_samples; // of a pixel: traced; in the picture
     double rays_each;              // of a sample, about
     uint32_t rare;                 // pixels that one sample of all could put off, of those seen
     double *exact, *rounded;
     float *shown[3];
 };
 
-// A part of a pixel aside, another one for each look, and as much askew over the picture: where a scene is as
-// symmetric as its view, whole columns of pixels would else lie on edges and on the lines of checkers.
+// Shifts the camera by a fraction of a pixel, different for each look, and tilts it as much over the picture:
+// if a scene is as symmetric as its view, whole columns of pixels would otherwise lie on edges and on the
+// lines of checkers.
 static void turn_camera(struct small *small) {
     struct view_camera *camera = &small->view.camera;
     const bool is_parallel = camera->projection == IR_PROJECTION_ORTHOGRAPHIC;
@@ -62,8 +63,8 @@ static void turn_camera(struct small *small) {
     camera->up = vec3_cross(camera->right, camera->forward);
 }
 
-// Of the next look, at `cells` pixels after `seen` others: a grid of pixels that lie apart, but are as small
-// as the picture's and have its samples, or the whole picture.
+// Chooses the size of the next look, at `cells` pixels after `seen` others: a grid of pixels that lie apart,
+// but are as small as the picture's and have its samples, or the whole picture.
 static void choose_size(struct small *small, double cells, double seen) {
     const double width = small->trial->width, height = small->trial->height;
     small->whole = width * height <= 2 * (seen + cells);
@@ -122,7 +123,8 @@ static struct render_settings device_settings(const struct small *small) {
     return settings;
 }
 
-// What needs no pixels of the background: the scene on the device, and its kernel. Its size is not known yet.
+// Prepares what needs no background pixels: the scene on the device, and its kernel. The size is not known
+// yet.
 static enum precision_status prepare_device(struct small *small) {
     struct flat_input input = *small->trial->input;
     input.is_double = false;
@@ -155,15 +157,14 @@ static bool is_off(const struct small *small, int other, size_t pixel) {
     return off;
 }
 
-// Pictures of more samples than are traced: what is wrong in one of those is a smaller part of the pixel, but
-// there are more of them that may be.
+// For pictures with more samples than are traced: an error in one sample is a smaller part of the pixel, but
+// more samples may be wrong.
 static double weaker(const struct small *small, size_t i) {
     const double part = (double)small->samples / small->all_samples;
     return small->exact[i] + (small->rounded[i] - small->exact[i]) * part;
 }
 
-// Compares as displayed: how many pixels are off, and how many would be by the part that each sample has of
-// all.
+// Compares as displayed: how many pixels are off, and how many would be, given each sample's share of all.
 static void compare(struct small *small, struct precision_choice *out) {
     const struct ir_image *image = &small->trial->input->scene->ir->image;
     const struct image_display display = {image->tone, image->transfer};
@@ -181,7 +182,7 @@ static void compare(struct small *small, struct precision_choice *out) {
         out->off = small->rare = 0;
     for (size_t i = 0; i < pixels; i++) {
         const double *p = small->rounded + 3 * i;
-        // What no float holds, no precision of places mends.
+        // Values that no float holds are not mended by a higher precision of places.
         if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2]))
             continue;
         out->off += is_off(small, 1, i);
@@ -215,7 +216,7 @@ static enum precision_status look(struct small *small, struct precision_choice *
     return forecast(small, out) ? PRECISION_DONE : PRECISION_MEMORY;
 }
 
-// What a sample costs: a very small picture tells.
+// Measures the cost of a sample with a very small picture.
 static bool measure_rays(struct small *small) {
     struct reference_statistics statistics;
     choose_size(small, LEAST_PIXELS, 0);
@@ -230,7 +231,7 @@ static bool measure_rays(struct small *small) {
     return true;
 }
 
-// Of the first look: as many pixels and samples as can be paid for.
+// For the first look: as many pixels and samples as can be afforded.
 static double first_cells(struct small *small) {
     while (small->samples > 1 && CELLS * small->samples * small->rays_each > ALL_RAYS)
         small->samples /= 2;
@@ -256,14 +257,13 @@ static void drop_pictures(struct small *small) {
 
 // ---- looks
 
-// How many pixels are off, or would be if each sample that was not traced were as those that were.
+// How many pixels are off, or would be if samples that were not traced were like those that were.
 static uint32_t count_off(const struct small *small, const struct precision_choice *out) {
     const double rare = ceil((double)small->rare * small->all_samples / small->samples);
     return (uint32_t)fmin(out->pixels, fmax(out->off, rare));
 }
 
-// Whether what was seen decides. Where it does not, the share that was seen has to do, less a part of what is
-// allowed.
+// Whether the pixels seen so far decide. If not, the share seen must be enough, with a stricter limit.
 static bool decides(const struct small *small, struct precision_choice *out) {
     const uint32_t off = count_off(small, out);
     out->share = (double)off / out->pixels;
@@ -276,7 +276,7 @@ static bool decides(const struct small *small, struct precision_choice *out) {
                                               : share_bound(off, out->pixels, RISK) <= PRECISION_SHARE);
 }
 
-// Whether as many pixels again, or all, may be looked at.
+// Whether as many pixels again, or all pixels, may be looked at.
 static bool may_go_on(const struct small *small, double seen) {
     const double all = (double)small->trial->width * small->trial->height;
     const double samples = small->samples * (all <= 4 * seen ? seen + all : 2 * seen);
@@ -299,11 +299,11 @@ static enum precision_status take_looks(struct small *small, struct precision_ch
     return status;
 }
 
-// Up to where pixels of the background are needed, and until they are there.
+// Prepares up to where pixels of the background are needed, and waits for them.
 static enum precision_status prepare(struct small *small, struct precision_report *report) {
     const struct precision_trial *trial = small->trial;
     small->view = *trial->input->view;
-    // First what goes on in the driver's threads.
+    // First starts what runs in the driver's threads.
     const enum precision_status status = trial->gpu ? prepare_device(small) : PRECISION_DONE;
     if (status != PRECISION_DONE)
         return status;

@@ -1,5 +1,5 @@
-// What a part of a picture's pixels says of the share of all of them: the bounds of Clopper and Pearson
-// (1934).
+// What a sample of a picture's pixels tells about the share among all of them: the bounds of Clopper and
+// Pearson (1934).
 //
 // Errors: none. Thread safety: pure.
 #ifndef GLINT_MEASURE_SHARE_H

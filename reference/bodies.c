@@ -1,4 +1,4 @@
-// From the scene's bodies and materials to those that rays are traced against.
+// Makes the bodies and materials that rays are traced against from the scene's.
 #include "reference/reference_internal.h"
 #include "scene/shape.h"
 #include "scene/transform.h"
@@ -10,7 +10,7 @@ static struct material make_material(const struct scene_material *from) {
     return m;
 }
 
-// The origin is taken off before any vertex is transformed.
+// The origin is subtracted before any vertex is transformed.
 static struct body make_body(const struct reference *r, const struct scene_body *from) {
     struct body body = {.is = from,
                         .object_to_world = transform_relative(from->object_to_world, r->origin),
@@ -24,7 +24,7 @@ static struct body make_body(const struct reference *r, const struct scene_body 
     return body;
 }
 
-// Bodies that show one mesh share its normals.
+// Bodies that show the same mesh share its normals.
 static const vec3 *make_normals(struct reference *r, uint32_t number) {
     const struct mesh *mesh = r->bodies[number].is->mesh;
     for (uint32_t i = 0; i < number; i++)

@@ -63,7 +63,7 @@ struct answer {
     struct reference_statistics statistics;
 };
 
-// An entry holds the statistics, then the body.
+// An entry holds the statistics, then the pixels or hits.
 static bool find(struct reference_source *source, struct answer *a) {
     const struct folder_seal seal = seal_of(a->key);
     const size_t before = sizeof a->statistics;
@@ -82,7 +82,7 @@ static bool find(struct reference_source *source, struct answer *a) {
 static void keep(struct reference_source *source, const struct answer *a) {
     const struct folder_seal seal = seal_of(a->key);
     struct reference_statistics statistics;
-    // Padding too: an entry's bytes depend on nothing else.
+    // Clears padding too, so that an entry's bytes depend on nothing else.
     memset(&statistics, 0, sizeof statistics);
     statistics = a->statistics;
     const struct folder_store_part parts[2] = {{&statistics, sizeof statistics}, {a->body, a->body_bytes}};

@@ -1,11 +1,11 @@
 // The reference asked through a cache: pictures and hits that were computed before are read back.
 //
 // The key is a hash of all that the scene means, row by row of the table, of the contents of meshes and
-// images, of the view, the settings and REFERENCE_VERSION: not of how the scene is written. A name counts
-// too: a picture computed twice costs time, another scene's picture would be a lie. Entries that are damaged,
-// or of another version, are ignored and replaced. The tree is built only where something is not in the
-// cache. Ownership: scene, assets, view and the store's path must outlive the source. Thread safety: a source
-// belongs to one thread; several processes may share a store.
+// images, of the view, the settings and REFERENCE_VERSION; how the scene is written does not matter. Names
+// count too: computing a picture twice costs time, but another scene's picture would be wrong. Entries that
+// are damaged, or of another version, are ignored and replaced. The tree is built only where something is not
+// in the cache. Ownership: scene, assets, view and the store's path must outlive the source. Thread safety: a
+// source belongs to one thread; several processes may share a store.
 #ifndef GLINT_REFERENCE_CACHE_H
 #define GLINT_REFERENCE_CACHE_H
 
@@ -22,16 +22,16 @@ struct reference_source {
     struct reference *reference; // made when first needed
     uint64_t scene_key[2];
     bool has_key;
-    uint32_t found, computed; // answers from the cache, and others
+    uint32_t found, computed; // answers from the cache, and those computed
 };
 
 void reference_source_init(struct reference_source *source, const struct reference_input *input,
                            struct folder_store store);
 void reference_source_finish(struct reference_source *source);
-// Made now if it was not yet; belongs to the source. NULL: no memory.
+// Makes the reference if it was not made yet; it belongs to the source. NULL: no memory.
 const struct reference *reference_source_get(struct reference_source *source);
 
-// As reference_render; a picture from the cache has the statistics of when it was made.
+// As reference_render; a picture from the cache has the statistics from when it was made.
 enum reference_result reference_source_render(struct reference_source *source,
                                               const struct reference_settings *settings, double *rgb,
                                               const struct reference_progress *progress,
@@ -41,7 +41,7 @@ enum reference_result reference_source_hits(struct reference_source *source,
                                             const struct reference_settings *settings, struct hit_pixel *hits,
                                             const struct reference_progress *progress);
 
-// What the key of all entries of an input begins with: a hash of the scene, its files and the view.
+// A hash of the scene, its files and the view, with which the keys of all entries of an input begin.
 void reference_input_key(const struct reference_input *input, uint64_t key[2]);
 
 enum reference_entry {

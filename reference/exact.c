@@ -4,10 +4,10 @@
 
 #include <float.h>
 
-// Above the error of a place that is computed with twice the digits, as a part of its coordinates.
+// Above the error of a place computed with twice the digits, as a fraction of its coordinates.
 #define STEP 0x1p-96
-// Planes whose heights differ by no more than this part of their coordinates are the same but for the
-// rounding of the scene's numbers, where they are parallel too.
+// Parallel planes whose heights differ by no more than this fraction of their coordinates are the same but
+// for the rounding of the scene's numbers.
 #define SAME_HEIGHT   4.0 // units
 #define PARALLEL      (1 - 0x1p-14)
 #define CORNER_FACTOR 8.0
@@ -16,7 +16,7 @@ static vec3 corner_of(const struct primitive *p, int k) {
     return (vec3){p->v[k][0], p->v[k][1], p->v[k][2]};
 }
 
-// The corner whose edges tell the normal best: the first one, unless another's are much shorter.
+// The corner whose edges give the most accurate normal: the first one, unless another's are much shorter.
 static int best_corner(const struct primitive *p) {
     double product[3];
     int best = 0;
@@ -70,14 +70,14 @@ void exact_begin(const struct reference *r, const struct ray *ray, const int axe
     const struct primitive *left = reference_primitive(r, ray->start.left, &out->left_room);
     out->left = left;
     out->left_normal = exact_normal(left);
-    // On the side to which the ray leads.
+    // On the side that the ray heads to.
     const double step = STEP * farthest(left);
     const double side = vec3_dot(out->left_normal, ray->direction) < 0 ? -step : step;
     out->origin = wide3_add(place_on(left, ray->start.b1, ray->start.b2),
                             wide3_mul(wide3_of(out->left_normal), wide_of(side)));
 }
 
-// A corner's place across the ray: the same for all triangles around it, so that no ray slips between them.
+// A corner's place across the ray: the same for all triangles around it, so no ray slips between them.
 struct across {
     struct wide x, y;
 };
@@ -98,8 +98,8 @@ double exact_blur(const struct primitive *p, vec3 direction, double unit) {
     return SAME_HEIGHT * unit * farthest(p) / fabs(vec3_dot(exact_normal(p), direction));
 }
 
-// Whether the triangle lies in the plane of the one that the ray leaves, in another body: then the ray leaves
-// both.
+// Whether the triangle belongs to another body and lies in the plane of the one that the ray leaves: then the
+// ray leaves both.
 static bool is_left_too(const struct exact_ray *ray, const struct primitive *p, vec3 unit, double height) {
     return ray->left && ray->left->body != p->body && fabs(height) <= SAME_HEIGHT * ray->unit * farthest(p) &&
            fabs(vec3_dot(unit, ray->left_normal)) > PARALLEL;

@@ -1,28 +1,29 @@
-// Bodies that show the same mesh: its triangles once, in a tree of the mesh's own space, which rays enter by
-// the inverse of the body's map.
+// Bodies that show the same mesh: its triangles once, in a tree of the mesh's own space, which rays enter
+// through the inverse of the body's map.
 //
 // A ray must open each box of that tree whose triangles it might hit in scene space, where they are rounded.
 // Let M p + c be a vertex, N the inverse as it is stored, and o + t d a place within the rounding of a
-// triangle. In mesh space it is N (o - c) + t N d = p + (N M - 1) p + N e: e is what vertices, the ray's
-// start and the operations here are off by, a few units of the numbers that they are computed from, and N M -
-// 1 is measured. The ray's origin is moved by the sum, to either side of each plane.
+// triangle. In mesh space it is N (o - c) + t N d = p + (N M - 1) p + N e: e is the error of vertices, the
+// ray's start and the operations here, a few units of the numbers that they are computed from, and N M - 1 is
+// measured. The ray's origin is moved by the sum of these errors, to either side of each plane.
 #include "reference/reference_internal.h"
 
 #include "scene/mesh_use.h"
 #include "scene/transform.h"
 
-// Units of the largest numbers: 6 of a vertex, 16 by which the boxes of a tree in scene space are wider, 7 of
-// a ray's start and as many of the operations from there to mesh space and back; and as many again.
+// Units of the largest numbers: 6 for a vertex, 16 by which the boxes of a tree in scene space are wider, 7
+// for a ray's start and as many for the operations from there to mesh space and back; and as many again.
 #define UNITS 64.0
-// How much of a mesh's size the inverse may be wrong by.
+// The largest error of the inverse, as a fraction of the mesh's size.
 #define SHIFT_MOST 0x1p-20
 
 enum {
-    // Triangles that sharing must save; each takes about 280 bytes, and its share of the tree's time.
+    // The least number of triangles that sharing must save; each takes about 280 bytes, and its share of the
+    // tree's time.
     SAVED_LEAST = 1 << 20,
     SAVED_LEAST_FEW_RAYS = 1 << 17,
     TRIANGLES_LEAST = 64, // of a mesh
-    BOXES_DEPTH = 6       // of the nodes by which an instance's box is found
+    BOXES_DEPTH = 6       // levels of nodes by which an instance's box is found
 };
 
 static double row_size(const double row[3], vec3 v) {
@@ -33,7 +34,7 @@ static vec3 rows_size(const mat3 *m, vec3 v) {
     return (vec3){row_size(m->m[0], v), row_size(m->m[1], v), row_size(m->m[2], v)};
 }
 
-// How far to_mesh times the body's map is from doing nothing, with the rounding of that product.
+// How far to_mesh times the body's map is from the identity, with the rounding of that product.
 static mat3 lost(const mat3 *to_mesh, const mat3 *map) {
     mat3 off;
     for (int i = 0; i < 3; i++)
@@ -118,7 +119,7 @@ const struct instance *reference_instance(const struct reference *r, uint32_t in
 
 // ---- where
 
-// Around what a box of the mesh's tree becomes.
+// Grows the box around the image of a box of the mesh's tree.
 static void join_node(const affine3 *map, const struct tree_node *node, struct instance *out) {
     const vec3 lower = {node->lower[0], node->lower[1], node->lower[2]};
     const vec3 upper = {node->upper[0], node->upper[1], node->upper[2]};

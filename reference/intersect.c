@@ -4,11 +4,12 @@
 
 #include <assert.h>
 
-// A box is entered a little earlier and left a little later than its planes say: more than the rounding of
-// (plane - origin) / direction, as Ize 2013, "Robust BVH Ray Traversal", but wider, because it costs nothing.
+// A box is entered a little earlier and left a little later than its planes say: by more than the rounding of
+// (plane - origin) / direction, as in Ize 2013, "Robust BVH Ray Traversal", but wider, because it costs
+// nothing.
 #define BOX_SLACK 0x1p-48
-// Of a place on a triangle, as a part of its coordinates: its rounding and the way that the start is moved
-// from it (ray_offset.c).
+// Error of a start on a triangle, as a fraction of its coordinates: the rounding of the place and the
+// distance that the start is moved from it (ray_offset.c).
 #define START_ERROR 0x1p-47
 
 // ---- triangles
@@ -42,7 +43,7 @@ static double largest_of(double a, double b, double c) {
 
 // Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection"; the bound of t: Pharr, Jakob, Humphreys
 // 2023, section 6.8.7, without its factor for the ray's length, which double does not need. *open: double
-// leaves open whether the hit lies before the ray's start or behind it, or where on the ray.
+// precision cannot decide whether the hit lies in front of the ray's start or behind it, or where on the ray.
 static bool intersect_watertight(const struct sheared *s, const struct primitive *p, struct intersection *out,
                                  bool *open) {
     double x[3], y[3], z[3];
@@ -75,7 +76,7 @@ static bool intersect_watertight(const struct sheared *s, const struct primitive
         *open = last + depth_error >= 0;
         return false;
     }
-    // An error of the weights moves t by the spread of the corners at most.
+    // An error of the weights moves t by at most the spread of the corners.
     out->t = (u * z[0] + v * z[1] + w * z[2]) / det;
     out->b1 = v / det;
     out->b2 = w / det;
@@ -106,7 +107,7 @@ static bool intersect_moeller_trumbore(const struct ray *ray, const struct primi
 // ---- spheres
 
 // Haines, Günther, Akenine-Möller 2019, "Precision Improvements for Ray/Sphere Intersection" (Ray Tracing
-// Gems, chapter 7). A root that its own error reaches down to 0 is where the ray left the sphere.
+// Gems, chapter 7). A root within its own error of 0 is where the ray left the sphere.
 static bool intersect_sphere(const struct reference *r, const struct ray *ray, const struct primitive *p,
                              struct intersection *out) {
     vec3 f = vec3_sub(ray->start.at, (vec3){p->v[0][0], p->v[0][1], p->v[0][2]});
@@ -153,8 +154,9 @@ struct search {
     bool exact_begun;
     bool any;
     struct intersection nearest;
-    double end; // nothing farther away matters any more
-    // Intersections that rounding cannot tell from the nearest: faces in the same plane, edges that touch.
+    double end; // nothing farther away matters
+    // Intersections that rounding cannot distinguish from the nearest: faces in the same plane, edges that
+    // touch.
     struct intersection ties[TIES_MOST];
     int tie_count;
 };
@@ -170,7 +172,7 @@ static bool is_tie(const struct search *s, const struct intersection *hit) {
     return hit->t - hit->t_error <= s->nearest.t + s->nearest.t_error;
 }
 
-// Adds a hit to the ties, in order of (body, triangle), and drops those that are no longer ties.
+// Adds a hit to the ties, in order of (body, triangle), and drops hits that are no longer ties.
 static void take(struct search *s, const struct intersection *hit) {
     if (s->nearest.primitive == NO_PRIMITIVE || hit->t < s->nearest.t) {
         s->nearest = *hit;
@@ -216,7 +218,7 @@ static void test_primitive(struct search *s, uint32_t index, const struct primit
                   : s->r->input.test == REFERENCE_MOELLER_TRUMBORE
                       ? intersect_moeller_trumbore(s->ray, p, &hit)
                       : index != s->ray->start.left && intersect_triangle(s, p, &hit);
-    // What could be at t_max itself is not strictly before it.
+    // A hit that may lie at t_max itself is not strictly before it.
     if (!is_hit || hit.t + hit.t_error >= s->ray->t_max)
         return;
     hit.primitive = index;
@@ -270,7 +272,7 @@ static void test_leaf(struct search *s, const struct instance *instance, const s
     }
 }
 
-// Once deeper: an instance is a leaf of the scene's tree.
+// Recurses once: an instance is a leaf of the scene's tree.
 static void search_tree(struct search *s, const struct tree_ray *ray) {
     struct {
         uint32_t node;
@@ -323,7 +325,7 @@ static void search_scene(struct search *s) {
 
 // At equal distance the lower (body, triangle): the first of the ties.
 static void search(const struct reference *r, const struct ray *ray, bool any, struct intersection *out) {
-    // Not cleared as a whole: ties and digits are large, and most rays need none.
+    // Not cleared as a whole: ties and wide numbers are large, and most rays need none.
     struct search s;
     s.r = r;
     s.ray = ray;

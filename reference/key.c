@@ -6,9 +6,9 @@
 
 #include <assert.h>
 
-// What is hashed by name here is not in the table: the view, which is made from the scene and may be moved
-// afterwards. A field that one of these gains changes its size: hash the field, then count
-// it. Sizes are those of 64 bits.
+// Hashes by name what is not in the table: the view, which is made from the scene and may be moved
+// afterwards. A new field in one of these structs changes its size: hash the field, then update the size.
+// Sizes are for 64 bits.
 static_assert(sizeof(void *) != 8 || sizeof(struct view_camera) == 16 + 4 * sizeof(vec3) + 6 * 8,
               "hash the new field of a camera");
 static_assert(sizeof(void *) != 8 || sizeof(struct view_light) == 6 * 8 + 7 * sizeof(vec3) + 8,

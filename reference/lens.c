@@ -15,7 +15,7 @@ static vec3 combined(const struct view_camera *c, double forward, double right, 
     return forward == 0 ? across : vec3_add(vec3_mul(c->forward, forward), across);
 }
 
-// The direction of a pinhole's ray; of a view ahead its part along the view is 1.
+// The direction of a pinhole's ray; for a view ahead its component along the view is 1.
 static vec3 pinhole_direction(const struct view_camera *c, struct place at) {
     const double x = at.x * at.aspect;
     switch (c->projection) {

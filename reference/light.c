@@ -7,7 +7,7 @@
 
 #include "grammar/ir.h"
 
-// Less than the smallest normal float adds nothing that a picture could hold: tails of highlights.
+// A light below the smallest normal float adds nothing that a picture could hold: tails of highlights.
 #define LEAST_LIGHT 0x1p-126
 
 // ---- lights
@@ -21,12 +21,12 @@ static double highlight(double loss, double exponent) {
 
 // Where a sample takes a light.
 struct spot {
-    vec3 place;   // less the origin; of a light that is not infinitely far away
+    vec3 place;   // relative to the origin; for a light that is not infinitely far away
     vec3 l;       // unit, towards it from the surface
-    double share; // of what a point there would add
+    double share; // of what a light at that point would add
 };
 
-// A direction of a cap around the axis: (a, b) of the unit square, all directions alike.
+// A direction of a cap around the axis: (a, b) is in the unit square, and all directions are equally likely.
 static vec3 in_cap(vec3 axis, double gap, double a, double b) {
     double x, y;
     reference_disc(a, b, &x, &y);
@@ -34,10 +34,10 @@ static vec3 in_cap(vec3 axis, double gap, double a, double b) {
     return reference_turned(axis, x * wide, y * wide, 1 - below);
 }
 
-// What a ray to a light lacks, at its end, of one to a body that has the same surface: as on the device.
+// How much earlier a ray to a light ends if a body has the same surface: as on the device.
 #define SHORTER 0x1p-19
 
-// Half of a sphere, from inside it; else its cap in view.
+// From inside a sphere, half of it; else its visible cap.
 static void on_sphere(struct spot *spot, const struct view_light *light, vec3 point, double a, double b) {
     const double radius = light->radius;
     const vec3 way = vec3_sub(spot->place, point);
@@ -122,8 +122,8 @@ static struct ray ray_to(const struct reference *r, const struct view_light *lig
                         .t_max = light->directional ? INFINITY : 1};
 }
 
-// What bodies that refract let through to the light: a product of what each does, in the order in which the
-// ray hits them. 0: something opaque is between.
+// What refracting bodies let through to the light: the product of their shares, in the order in which the ray
+// hits them. 0: something opaque is between.
 static vec3 shining(const struct reference *r, const struct view_light *light, const struct spot *spot,
                     struct start start, struct inside inside, struct lighting *out) {
     vec3 left = {1, 1, 1};
@@ -139,7 +139,7 @@ static vec3 shining(const struct reference *r, const struct view_light *light, c
         reference_surface(r, &ray, &hit, &s);
         reference_cross(r, &inside, &s);
         left = vec3_times(left, reference_left(r, &inside, s.distance * length));
-        out->shadow_rays -= s.passes; // it is the same ray that goes on
+        out->shadow_rays -= s.passes; // it is the same ray that continues
         out->unseen += s.passes;
         if (!s.passes)
             left = vec3_mul(left, reference_shine(&s, vec3_mul(ray.direction, 1 / length)));
@@ -164,7 +164,7 @@ static vec3 arriving(const struct reference *r, const struct view_light *light, 
     return light->directional ? (vec3){1, 1, 1} : reference_left(r, inside, vec3_length(ray.direction));
 }
 
-// Ambient light that nothing near keeps off: a ray into the hemisphere, by its cosine (Malley's method).
+// Ambient light that nothing nearby blocks: a ray into the hemisphere, by its cosine (Malley's method).
 static vec3 ambient(const struct reference *r, const struct surface *s, const struct inside *inside,
                     const struct points *points, uint32_t key, struct lighting *out) {
     const struct scene *scene = r->input.scene;
@@ -185,7 +185,7 @@ static vec3 ambient(const struct reference *r, const struct surface *s, const st
 
 // ---- the background as a light
 
-// The last of `count` shares that does not begin after `place`, and where it ends.
+// The last of `count` shares that begins at or before `place`, and where it ends.
 static uint32_t share_at(const uint32_t *begin, uint32_t count, size_t apart, uint32_t place, double *end) {
     uint32_t low = 0, high = count;
     while (high - low > 1) {
@@ -218,7 +218,7 @@ static vec3 look_up(const struct reference *r, const struct points *points, uint
     const double x = level * cos(longitude), z = level * sin(longitude);
     *l = (vec3){x * background->cosine + z * background->sine, step > 0 ? 1 - gap : gap - 1,
                 z * background->cosine - x * background->sine};
-    // Over pi, and over the density: the cell's share over its solid angle.
+    // Divided by pi and by the density: the cell's share over its solid angle.
     const double solid = 2 * PI / size.width * fabs(step);
     return vec3_mul(reference_background(r, *l), solid / PI * (0x1p32 / high) * (0x1p32 / wide));
 }
@@ -284,7 +284,7 @@ static vec3 mixed(vec3 a, vec3 b, double part) {
 static vec3 background_image(const struct reference *r, vec3 d) {
     const struct scene_background *background = &r->input.scene->background;
     const struct picture *picture = background->picture;
-    // Turned by the negative rotation about +y.
+    // Rotated by the negative rotation about +y.
     double x = d.x * background->cosine - d.z * background->sine;
     double z = d.x * background->sine + d.z * background->cosine;
     double u = (0.5 + atan2(z, x) / (2 * PI)) * picture->width - 0.5;
@@ -320,7 +320,8 @@ static double rgbe_brightest(const struct reference *r, size_t texels) {
     return most;
 }
 
-// The brightest channel: decoding keeps the order of stored values, and most pictures have the greatest one.
+// The brightest channel: decoding keeps the order of stored values, and most pictures contain the largest
+// one.
 static double image_brightest(const struct reference *r) {
     const struct picture *picture = r->input.scene->background.picture;
     const size_t texels = (size_t)picture->width * picture->height;

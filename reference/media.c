@@ -10,7 +10,7 @@ enum {
 
 // ---- sets
 
-// The medium that fills a place: of highest priority, the last one entered among equals.
+// The medium that fills a place: the one with the highest priority, among equals the last one entered.
 uint32_t reference_filling(const struct reference *r, const struct inside *inside) {
     uint32_t found = HIT_NONE;
     int32_t most = INT32_MIN;
@@ -44,7 +44,7 @@ static bool enter(struct inside *inside, uint32_t body) {
 
 // ---- crossings
 
-// The index on one side; a body's own faces tell that of the body.
+// The refractive index on one side; a body's own faces give the index of the body.
 static double index_of(const struct reference *r, uint32_t medium, const struct surface *s) {
     if (medium == HIT_NONE)
         return 1;
@@ -58,7 +58,7 @@ static bool is_same(const struct reference *r, uint32_t a, uint32_t b) {
     return a == b || scene_compare_media(&all[r->bodies[a].filling], &all[r->bodies[b].filling]) == 0;
 }
 
-// Without media: the side of the surface tells all.
+// Without media: the side of the surface decides everything.
 static void cross_alone(struct surface *s) {
     const bool leaves = s->solid && s->is->refraction > 0 && !s->enters;
     s->index_before = leaves ? s->index : 1;
@@ -71,14 +71,14 @@ void reference_cross(const struct reference *r, const struct inside *before, str
         cross_alone(s);
         return;
     }
-    struct inside around = *before; // what the ray is inside but for this body
+    struct inside around = *before; // what the ray is inside, without this body
     const bool was_inside = leave(&around, s->body);
     if (!s->solid || !(s->is->refraction > 0)) {
         s->index_before = index_of(r, reference_filling(r, before), s);
         s->index_after = s->index;
         return;
     }
-    // Of a sphere the side is certain. A mesh may have walls turned either way.
+    // For a sphere the side is certain. A mesh may have walls turned either way.
     const bool leaves = reference_is_sphere(r, s->primitive) ? !s->enters : was_inside;
     struct inside within = was_inside ? *before : around;
     s->is_over = !was_inside && !enter(&within, s->body);
@@ -102,11 +102,11 @@ vec3 reference_left(const struct reference *r, const struct inside *inside, doub
 
 // The media that a ray is inside on its way to the camera may be more than a path has room for.
 struct approach {
-    uint32_t *bodies; // room for all; those entered first in front
+    uint32_t *bodies; // room for all, in the order in which they were entered
     uint32_t count;
 };
 
-// Any face of a medium counts, also one that lets nothing through. Of a sphere the side is certain.
+// Any face of a medium counts, even one that lets nothing through. For a sphere the side is certain.
 static void cross_on_the_way(const struct reference *r, struct approach *on, const struct surface *s) {
     if (!r->bodies[s->body].is_medium)
         return;
@@ -120,7 +120,7 @@ static void cross_on_the_way(const struct reference *r, struct approach *on, con
     on->count = kept;
 }
 
-// A ray comes from above all bodies to the camera, and is inside what it entered and did not leave.
+// A ray comes to the camera from above all bodies, and is inside those that it entered and did not leave.
 static void look_from_above(const struct reference *r, struct approach *on) {
     const vec3 up = scene_inside_direction();
     const double height = r->primitive_count ? r->nodes[0].upper[1] : 0;
@@ -140,7 +140,8 @@ static void look_from_above(const struct reference *r, struct approach *on) {
     }
 }
 
-// false: no memory. Of too many the outermost ones count; who opened the scene has said so.
+// false: no memory. If there are too many, the outermost ones count; this was reported when the scene was
+// opened.
 static bool find_around_camera(struct reference *r) {
     struct approach on = {heap_array((size_t)r->input.scene->body_count + 1, sizeof *on.bodies), 0};
     if (!on.bodies)

@@ -3,8 +3,8 @@
 //
 // The footprint of a pixel is that of a cone around its ray (Amanatides 1984; Akenine-Moeller, Crassin,
 // Boksansky, Belcour, Panteleev and Wright 2021, "Improved Shader and Texture Level of Detail Using Ray
-// Cones"). How coordinates change across it is found by what areas change on a triangle, and by differences
-// on a sphere, not by derivatives: so nothing here is what the device does.
+// Cones"). How coordinates change across it is found from areas on a triangle, and from differences on a
+// sphere, not from derivatives: so nothing here repeats what the device does.
 #include "core/angle.h"
 #include "reference/reference_internal.h"
 
@@ -39,7 +39,7 @@ struct cone reference_mirrored_cone(const struct surface *s, struct cone cone) {
     return (struct cone){s->width, cone.spread + 2 * s->bend * s->width};
 }
 
-// By what Snell's law makes of a normal that turns: to = eta from + (eta c - c') n.
+// By Snell's law for a normal that turns: to = eta from + (eta c - c') n.
 struct cone reference_bent_cone(const struct surface *s, struct cone cone, vec3 from, vec3 to) {
     if (!s->solid || s->index == 1)
         return (struct cone){s->width, cone.spread};
@@ -77,8 +77,8 @@ static vec3 corner_of(const struct primitive *p, int k) {
     return (vec3){p->v[k][0], p->v[k][1], p->v[k][2]};
 }
 
-// How the weights of a triangle's corners change along a way in its plane, by the areas that the point and
-// the edge across from each corner span: so no digits are lost far from the origin. Their sum is 0.
+// How the weights of a triangle's corners change along a way in its plane, by the areas that the point spans
+// with the edge opposite each corner: so no digits are lost far from the origin. Their sum is 0.
 static void weights_along(const struct primitive *p, vec3 way, double by[3]) {
     const vec3 normal =
         vec3_cross(vec3_sub(corner_of(p, 1), corner_of(p, 0)), vec3_sub(corner_of(p, 2), corner_of(p, 0)));
@@ -95,7 +95,7 @@ static struct place sphere_place(vec3 arm) {
     return (struct place){0.5 + atan2(arm.z, arm.x) / (2 * PI), 1 - atan2(around, arm.y) / PI};
 }
 
-// Of a surface's coordinates (u, v).
+// The place in a surface's coordinates (u, v).
 static struct place surface_place(const struct scene_body *body, const struct surface *s, const double b[3],
                                   vec3 arm) {
     struct ir_pair at[3];
@@ -130,7 +130,7 @@ vec3 reference_checker_place(const struct scene_body *body, const struct surface
     return arm;
 }
 
-// Where a checker's cells are counted, in cells.
+// The place in a checker's coordinates, in cells.
 static vec3 checker_cell(const struct scene_body *body, const struct surface *s, const double b[3], vec3 arm,
                          double size) {
     return vec3_mul(reference_checker_place(body, s, b, arm), 1 / size);
@@ -148,8 +148,8 @@ struct spot {
     double b[3];
 };
 
-// On a sphere places are moved by an angle so small that what curves does not show, and large enough that
-// their difference has digits.
+// On a sphere places are moved by an angle small enough that curvature does not show, and large enough that
+// their difference keeps its digits.
 #define STEP 0x1p-12
 
 static struct spot moved(const struct spot *spot, vec3 axis, double by) {
@@ -162,10 +162,10 @@ static struct place place_at(const struct spot *spot) {
     return surface_place(spot->body, spot->s, spot->b, spot->arm);
 }
 
-// How near to a sphere's axis differences are taken, radius 1.
+// The least distance from a sphere's axis at which differences are taken, for radius 1.
 #define NEAREST_AXIS 1e-12
 
-// On a sphere, by places that are not nearer to its axis.
+// On a sphere, moves places that are nearer to the axis than that away from it.
 static double off_axis(struct spot *spot) {
     const double size = vec3_length(spot->arm), around = hypot(spot->arm.x, spot->arm.z);
     if (around >= NEAREST_AXIS * size)
@@ -252,8 +252,8 @@ static vec3 bilinear(const struct scene_image *image, uint32_t number, struct pl
     return sum;
 }
 
-// Between the levels around it, of which each is half as large as the one before. `size`: the footprint's in
-// pixels of the image; between two powers of two the level grows evenly with it.
+// The level, fractional between two levels, each half as large as the one before. `size`: the footprint's, in
+// pixels of the image; between two powers of two the level grows linearly with it.
 static double level_of(const struct scene_texture *texture, double size) {
     int exponent;
     const double part = frexp(size, &exponent); // 0.5..1
@@ -281,8 +281,8 @@ static struct place change_in_image(const struct scene_image *image, struct plac
 
 // ---- taps
 
-// An axis cut into `parts` of the same length, which need not be a whole number: whole ones around its
-// middle, an odd number of them, and half of what is left at each end. So nothing jumps where it grows.
+// An axis cut into `parts` of the same length, not necessarily a whole number: an odd number of whole parts
+// around its middle, and half of the remainder at each end. So nothing jumps as `parts` grows.
 struct cut {
     double parts;
     uint32_t count;
@@ -300,8 +300,8 @@ static void part_of(struct cut cut, uint32_t i, double *begin, double *end) {
     *end = fmin((i + 1 - half) / cut.parts, 0.5);
 }
 
-// The axes of an ellipse, the longer one first, by two of its radii that are conjugate to each other: turned
-// through its radii r(t) = a cos t + b sin t to where they are longest.
+// The axes of an ellipse, the longer one first, from two conjugate radii: turned through its radii r(t) = a
+// cos t + b sin t to the longest.
 static void axes_of(const struct place radius[2], struct place axis[2]) {
     const struct place a = radius[0], b = radius[1];
     const double t = atan2(2 * (a.u * b.u + a.v * b.v), a.u * a.u + a.v * a.v - b.u * b.u - b.v * b.v) / 2;
@@ -353,7 +353,7 @@ static vec3 image_color(const struct spot *spot, const struct footprint *f, cons
 
 // ---- checkers
 
-// Mean over [x - w/2, x + w/2] of what is 1 in even cells and -1 in odd ones.
+// The mean over [x - w/2, x + w/2] of a function that is 1 in even cells and -1 in odd ones.
 static double wave(double x, double w) {
     const double low = x - w / 2, high = x + w / 2;
     if (floor(low) == floor(high))
@@ -375,8 +375,8 @@ static vec3 cell_change(const struct spot *spot, vec3 axis, double size) {
     return vec3_mul(vec3_sub(after.arm, before.arm), 1 / (2 * step * size));
 }
 
-// The share of odd cells in the footprint, which is cut into as many boxes along its longer axis as the
-// shorter one fits into it.
+// The share of odd cells in the footprint, which is cut along its longer axis into as many boxes as the
+// shorter axis fits into it.
 static double odd_share(const struct spot *spot, const struct footprint *f, double size) {
     const vec3 at = checker_cell(spot->body, spot->s, spot->b, spot->arm, size);
     const bool is_flat = shape_traits(spot->body->shape).is_flat;

@@ -7,7 +7,7 @@
 // ---- rays that wait
 
 enum {
-    RAYS_A_QUESTION = 16, // so few because a ray may have to visit thousands of bodies
+    RAYS_A_QUESTION = 16, // few, because a ray may have to visit thousands of bodies
 };
 
 void reference_queue_finish(struct queue *queue) {
@@ -68,7 +68,7 @@ static void see(struct following *f, vec3 value) {
     f->sample->brightest = fmax(f->sample->brightest, reference_brightest(value));
 }
 
-// What is seen where nothing is hit.
+// What is seen if nothing is hit.
 static vec3 seen_beyond(const struct reference *r, vec3 direction) {
     return vec3_add(reference_background(r, direction), reference_seen_discs(r, direction));
 }
@@ -167,13 +167,13 @@ static void log_surface(const struct following *f, struct reference_segment *seg
     segment->texel = s->texel;
 }
 
-// A surface between equal media, or of a body of lower priority: straight on, unseen.
+// A surface between equal media, or of a body of lower priority: the ray goes straight on, unseen.
 static void pass(struct following *f, struct branch *b, const struct surface *s, uint32_t segment) {
     b->start = reference_leave(f->r, s, vec3_neg(s->geometric));
     b->inside = s->after;
     b->cone.width = s->width;
     b->parent = segment;
-    f->sample->rays[b->kind]--; // which goes on, and counts there
+    f->sample->rays[b->kind]--; // the ray continues, and counts there
     f->sample->unseen++;
     push(f->queue, b);
 }
@@ -197,7 +197,7 @@ static void show_surface(struct following *f, const struct branch *b, const stru
     }
 }
 
-// A light that is nearer than what the ray hits, which it then does not come to.
+// A light nearer than what the ray hits, so that the ray does not reach the hit.
 static bool see_light(struct following *f, struct branch *b, double t_max,
                       struct reference_segment *segment) {
     double t;

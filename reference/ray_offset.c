@@ -1,8 +1,8 @@
-// Where a ray starts that leaves a surface, so that it does not hit that surface again.
+// Where a ray that leaves a surface starts, so that it does not hit that surface again.
 #include "reference/reference_internal.h"
 
-// Displaced by the point's error, then one number outward (Pharr, Jakob, Humphreys 2023, section 6.8.6). Not
-// only by the error along the normal: that along the surface can carry the point across an edge.
+// Displaced by the point's error, then one number outward (Pharr, Jakob, Humphreys 2023, section 6.8.6). The
+// error along the normal is not enough: the error along the surface can carry the point across an edge.
 struct start reference_leave(const struct reference *r, const struct surface *s, vec3 side) {
     double distance = fmax(vec3_dot(vec3_abs(side), s->error), vec3_max_abs(s->error));
     vec3 shift = vec3_mul(side, distance);

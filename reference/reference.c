@@ -11,7 +11,7 @@
 
 enum {
     TILE = 16,            // pixels a side
-    RAYS_A_REPORT = 2048, // of a tile's pixels, before they count as done
+    RAYS_A_REPORT = 2048, // per report of a tile, before its pixels count as done
 };
 
 // ---- making
@@ -143,7 +143,7 @@ uint32_t reference_log(const struct reference *r, const struct reference_setting
 
 // ---- pictures
 
-// What a tile adds to the statistics.
+// A tile's part of the statistics.
 struct tile_sum {
     struct sample sum; // of the counts; largest of `deepest` and `brightest`
     double left_weight_most, left_weight;
@@ -162,15 +162,15 @@ struct work {
     atomic_size_t done;
     atomic_bool cancelled, failed;
     atomic_flag reporting;
-    double told; // by who holds it
+    double told; // the progress last reported, for whoever holds `reporting`
 };
 
-// One thread at a time reports how far the work is; the others go on.
+// One thread at a time reports progress; the others go on.
 static void tell(struct work *w, size_t pixels) {
     atomic_fetch_add(&w->done, pixels);
     if (!w->progress || atomic_flag_test_and_set(&w->reporting))
         return;
-    // In the middle of a pixel, half of one more is done. Never back.
+    // In the middle of a pixel, half a pixel more is done. Never goes back.
     double done = (double)atomic_load(&w->done) + (pixels ? 0 : 0.5);
     w->told = fmax(w->told, done / (double)w->pixels);
     if (!w->progress->report(w->progress->context, fmin(w->told, 1)))
@@ -178,7 +178,7 @@ static void tell(struct work *w, size_t pixels) {
     atomic_flag_clear(&w->reporting);
 }
 
-// In the middle of a pixel, which may take long.
+// Called in the middle of a pixel, which may take long.
 static bool goes_on(void *context) {
     struct work *w = context;
     tell(w, 0);
@@ -263,7 +263,7 @@ static struct hit_pixel first_hit(const struct reference *r, const struct refere
     struct hit_pixel hit = {.body = HIT_NONE, .reflected = HIT_NONE, .refracted = HIT_NONE};
     const struct camera_ray seen = reference_lens_ray(r, settings, points);
     const vec3 direction = seen.direction;
-    struct reference_settings alone = *settings; // its footprint is that of the only sample
+    struct reference_settings alone = *settings; // its footprint is that of a pixel's only sample
     alone.samples = 1;
     alone.footprint_of = alone.planned = 0;
     struct ray ray = {.start = reference_start(seen.start),
@@ -298,7 +298,7 @@ static struct hit_pixel first_hit(const struct reference *r, const struct refere
     hit.reflects = reference_reflection(&s, &split) > 0;
     if (hit.refracts)
         hit.refracted = body_ahead(r, reference_leave(r, &s, vec3_neg(s.geometric)), split.bent);
-    // Under total reflection the mirrored ray has the refracted one's weight too.
+    // Under total reflection the mirrored ray also has the refracted ray's weight.
     if (hit.reflects)
         hit.reflected =
             body_ahead(r, reference_leave(r, &s, s.geometric), reference_mirrored(r, &s, direction));

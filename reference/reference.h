@@ -1,4 +1,4 @@
-// The reference: an independent tracer in double precision on the processor, against which the other is
+// The reference: an independent tracer in double precision on the CPU, against which the device's tracer is
 // measured.
 //
 // Input: a scene (scene/scene.h) and the view; never anything flattened. It has its own
@@ -17,7 +17,7 @@
 
 struct ir_image;
 
-// Changes with every change of what the reference computes: cached pictures of other versions are not used.
+// Increased whenever what the reference computes changes: cached pictures of other versions are not used.
 #define REFERENCE_VERSION 11
 
 // How far paths are followed where the file's own limits do not apply.
@@ -27,11 +27,11 @@ struct ir_image;
 
 enum reference_test {
     REFERENCE_WATERTIGHT,       // Woop, Benthin, Wald 2013
-    REFERENCE_MOELLER_TRUMBORE, // 1997; to test the other against
+    REFERENCE_MOELLER_TRUMBORE, // 1997; to test the other one against
 };
 
-// Whether bodies that show the same mesh share its triangles, which then are made again for each ray: what is
-// hit is the same.
+// Whether bodies that show the same mesh share its triangles, which then are recomputed for each ray: hits
+// are the same.
 enum reference_sharing {
     REFERENCE_CHEAPER, // where that saves much memory
     REFERENCE_COPIES,  // never
@@ -43,11 +43,11 @@ struct reference_input {
     const struct view *view;
     enum reference_test test;
     bool no_tree; // every primitive is tested; to test the tree against
-    // Numbers as a device in single precision has them: places, directions and normals are rounded to floats
-    // and moved by about the error of the operations that made them, the same in every run. What it draws is
-    // wrong about where and as often as that device's picture is.
+    // Numbers are like those of a device in single precision: places, directions and normals are rounded to
+    // floats and moved by about the error of the operations that made them, the same in every run. Its
+    // picture is wrong at about the same places, and as often, as that device's.
     bool as_single;
-    bool few_rays; // the tree is made in less time, and takes more of it for each ray; hits are the same
+    bool few_rays; // the tree is built faster, and each ray takes longer; hits are the same
     bool no_bound; // statistics need not have brightest and bound, for which a background's whole image is
                    // read
     enum reference_sharing sharing;
@@ -58,23 +58,23 @@ struct reference_settings {
     uint32_t width, height; // pixels
     uint32_t samples;       // per pixel, at least 1
     uint32_t first_sample;  // number of the first of them (view_sample_offset); pictures begin with 0
-    // Above 0: where samples lie in a pixel are points of a picture of so many samples (scene/points.h), as
-    // where pixels end by their error. 0: view_sample_offset.
+    // Above 0: samples lie in a pixel at the points of a picture with this many samples (scene/points.h), as
+    // when pixels end by their error. 0: view_sample_offset.
     uint32_t points_of;
-    // Above 0: a pixel's footprint on images is that of so many samples, as where pixels end by their error:
-    // all have at least those. 0: that of `planned`.
+    // Above 0: a pixel's footprint on images is that of this many samples, as when pixels end by their error:
+    // each has at least that many. 0: that of `planned`.
     uint32_t footprint_of;
-    // Above 0: lights, lens and roughness take points of so many samples, of which `samples` were traced, as
-    // where a time ends a picture. 0: of `samples`.
+    // Above 0: lights, lens and roughness take points of this many samples, of which `samples` were traced,
+    // as when a time limit ends a picture. 0: of `samples`.
     uint32_t planned;
-    double apart;             // above 1: pixels lie so many pixels apart, each as small as they; else 1 or 0
-    uint32_t max_depth;       // a surface this deep sends no ray
-    double min_weight;        // rays of a lower weight are not followed
-    bool cut_sees_background; // what a ray sees that max_depth cut; else nothing
-    // Rays, shadow rays counted, that one sample may take. Where they end, as_file reports a fault; else the
-    // rays not followed count among the weight left.
+    double apart;       // above 1: pixels drawn lie this many pixels apart, at their usual size; else 1 or 0
+    uint32_t max_depth; // a surface this deep sends no ray
+    double min_weight;  // rays of a lower weight are not followed
+    bool cut_sees_background; // a ray cut by max_depth sees the background; else nothing
+    // The most rays, including shadow rays, that one sample may take. At the limit as_file reports a fault;
+    // else the rays not followed add to the weight left.
     uint64_t segments;
-    bool as_file; // depth-first; else the heaviest ray first, so that little is left when segments end
+    bool as_file; // depth-first; else the heaviest ray first, so that little is left when segments run out
 };
 
 // as_file: max_depth, min_weight and depth_limit of the file, LIMIT_PATH_SEGMENTS. Else weight 1e-6, depth
@@ -83,11 +83,11 @@ struct reference_settings reference_settings_of(const struct ir_scene *ir, const
                                                 const struct limits *limits, bool as_file);
 
 struct reference_fault {
-    uint32_t pixels; // how many; the rest is about the first of them, by rows
+    uint32_t pixels; // how many; the other fields describe the first of them, by rows
     uint32_t x, y;
     uint32_t body; // last hit, in IR order; HIT_NONE: none
     uint32_t triangle;
-    bool is_nested; // not finite because a ray would have been inside more than SCENE_MEDIA_MOST media
+    bool is_nested; // not finite because a ray would be inside more than SCENE_MEDIA_MOST media
 };
 
 struct reference_statistics {
@@ -96,12 +96,12 @@ struct reference_statistics {
     uint64_t unseen; // crossings between equal media, behind which the same ray goes on
     uint64_t cut_by_depth, cut_by_weight, cut_by_segments; // rays not followed
     uint32_t deepest;
-    // Weight of the rays not followed, summed over a pixel and divided by its samples: of the worst pixel,
-    // and the mean over all.
+    // Weight of the rays not followed, summed over a pixel and divided by its samples: the worst pixel's, and
+    // the mean over all.
     double left_weight_most, left_weight_mean;
     double brightest; // of anything in view: background, direct light of a surface, pixel; one channel
-    // left_weight_most * brightest: what following all rays could add to a pixel, unless they hit something
-    // brighter than all that was hit.
+    // left_weight_most * brightest: the most that following all rays could add to a pixel, unless they hit
+    // something brighter than anything hit so far.
     double bound;
     struct reference_fault not_finite;    // the pixel is NaN
     struct reference_fault over_segments; // as_file: part of the pixel's light is missing
@@ -109,7 +109,7 @@ struct reference_statistics {
     double seconds;
 };
 
-// `report` is called from any thread, one call at a time, with what is done, 0..1; false ends the work.
+// `report` is called from any thread, one call at a time, with the share done, 0..1; false ends the work.
 struct reference_progress {
     bool (*report)(void *context, double fraction);
     void *context;
@@ -126,8 +126,8 @@ struct reference;
 // NULL: no memory.
 struct reference *reference_create(const struct reference_input *input);
 void reference_destroy(struct reference *reference); // NULL does nothing
-// Looks elsewhere from the same place: `view` differs from that of the input only in where its camera turns,
-// and must outlive the reference. Nothing else may use the reference meanwhile.
+// Looks elsewhere from the same place: `view` differs from the input's only in its camera's direction, and
+// must outlive the reference. Nothing else may use the reference meanwhile.
 void reference_look(struct reference *reference, const struct view *view);
 
 // width * height * 3 linear values, rows from the top: the mean of the samples, before tone and transfer; NaN
@@ -157,7 +157,7 @@ struct reference_hit {
     vec3 shading;                   // unit, on the same side
     bool enters;                    // the ray comes from outside
     uint32_t material;              // in assets.materials
-    vec3 start_back, start_through; // where a ray begins that leaves on the ray's side, on the other side
+    vec3 start_back, start_through; // where a ray that leaves on the ray's side begins, and on the other side
 };
 
 // The direction need not be unit; a hit has 0 < t < t_max.
@@ -179,11 +179,11 @@ enum reference_kind {
 // What a surface shows of its image: the pixel of its nearest level, from the top left.
 struct reference_texel {
     bool is_there;
-    bool of_highlight; // of the specular colour: the diffuse one has no image
+    bool of_highlight; // the specular colour's: the diffuse one has no image
     double u, v;       // coordinates of the surface
     double level;      // 0: the image itself; each further one is half the size
     uint32_t x, y;     // in the image itself
-    uint32_t taps;     // that were averaged
+    uint32_t taps;     // texels that were averaged
     vec3 color;        // linear, not yet times the weight
 };
 
@@ -198,7 +198,7 @@ struct reference_segment {
     uint32_t light;                 // body HIT_NONE: of the view, that the ray sees; IR_NO_INDEX: none
     bool enters;                    // the ray comes from outside the body
     bool passes;                    // it goes straight on, unseen: the medium is the same on both sides
-    uint32_t medium;                // the body that fills the place that the ray goes through; HIT_NONE: air
+    uint32_t medium;                // the body that fills the space that the ray goes through; HIT_NONE: air
     vec3 tint;                      // what attenuation has left of each channel at its end
     bool total_reflection;          // the refracted ray was turned back
     double distance;                // scene units; 0 where nothing was hit
@@ -207,11 +207,11 @@ struct reference_segment {
     vec3 radiance; // direct light of the surface, or the background; times weight and tint it is what the
                    // pixel gets
     struct reference_texel texel;
-    double cut_weight; // of the rays that this surface would have sent and that were not followed
+    double cut_weight; // of the rays that this surface would have sent but that were not followed
 };
 
-// Follows sample `sample` of pixel x, y; returns the number of rays, of which the first `capacity` are
-// written. *radiance (may be NULL) is the sample's value. 0: no memory.
+// Follows sample `sample` of pixel x, y and returns the number of rays; the first `capacity` are written.
+// *radiance (may be NULL) is the sample's value. 0: no memory.
 uint32_t reference_log(const struct reference *reference, const struct reference_settings *settings,
                        uint32_t x, uint32_t y, uint32_t sample, struct reference_segment *segments,
                        uint32_t capacity, vec3 *radiance);

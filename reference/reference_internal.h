@@ -30,7 +30,7 @@ static inline double reference_brightest(vec3 color) {
 }
 
 // A triangle, or a sphere: then its centre is v[0] and its radius v[1][0]. In a tree also an instance, which
-// is a body: its number is `triangle`.
+// is a body: `triangle` is its number.
 struct primitive {
     double v[3][3];
     uint32_t body, triangle;
@@ -48,7 +48,7 @@ struct body {
     uint32_t primitive_count; // of an instance 1
     uint32_t instance;        // NO_INSTANCE: its triangles lie in the scene's tree
     bool is_medium;
-    uint32_t filling; // of a medium: its material
+    uint32_t filling; // of a medium: the material that fills it
 };
 
 struct material {
@@ -56,7 +56,7 @@ struct material {
     vec3 diffuse[2], specular; // times their weights
 };
 
-// The media that a ray is inside, those entered first in front.
+// The media that a ray is inside, in the order in which it entered them.
 struct inside {
     uint32_t bodies[SCENE_MEDIA_MOST];
     uint32_t count;
@@ -80,10 +80,10 @@ struct shared_mesh {
     uint32_t *order; // triangles, as leaves name them
 };
 
-// A body that shows a shared mesh. Its triangles are made when a ray comes near them, with the numbers that
-// they would have in the scene's tree.
+// A body that shows a shared mesh. Its triangles are made when a ray comes near them, with the same numbers
+// that they would have in the scene's tree.
 struct instance {
-    uint32_t body, mesh; // the latter of shared_meshes
+    uint32_t body, mesh; // `mesh` indexes shared_meshes
     uint32_t first;      // its triangles are primitives from this number on
     mat3 to_mesh;        // of directions
     vec3 shift;          // by how much to_mesh may be wrong, in mesh space
@@ -91,11 +91,11 @@ struct instance {
     double lower[3], upper[3];
 };
 
-// What of a ray the boxes of one tree are tested against.
+// The data of a ray that the boxes of one tree are tested against.
 struct tree_ray {
-    const struct instance *instance; // whose mesh's tree it is; NULL: the scene's
+    const struct instance *instance; // the instance whose mesh's tree it is; NULL: the scene's
     const struct tree_node *nodes;
-    // Its origin, and its origin moved by what rounding may have done to it, as planes see it.
+    // Its origin, moved either way by its possible rounding error, for lower and upper planes.
     double at_lower[3], at_upper[3];
     double inverse[3]; // 1 / direction
 };
@@ -108,7 +108,7 @@ struct reference {
     struct material *materials;
     bool media; // rays know what they are inside
     struct inside around_camera;
-    double *decoded; // a background's channel by stored value; NULL for floats
+    double *decoded; // a background channel's decoded value by stored value; NULL for floats
     double background_brightest;
     struct sky_size sky; // rows 0: the background does not light
     uint32_t *sky_numbers;
@@ -117,12 +117,12 @@ struct reference {
     struct tree_node *nodes;
     struct shared_mesh *shared_meshes;
     uint32_t shared_mesh_count;
-    struct instance *instances; // those of one mesh together
+    struct instance *instances; // grouped by mesh
     uint32_t instance_count;
     uint32_t first_shared; // primitives from here on are triangles of instances
 };
 
-// That of the numbers that places have.
+// The unit of the numbers that places have.
 static inline double reference_unit(const struct reference *r) {
     return r->input.as_single ? REFERENCE_SINGLE : REFERENCE_UNIT;
 }
@@ -132,24 +132,23 @@ static inline double reference_gamma(const struct reference *r, int n) {
 
 // ---- rounding.c
 
-// With as_single: as a device in single precision has it, computed from numbers as large as `size`; else as
-// it is.
+// With as_single: rounded as on a device in single precision, computed from numbers as large as `size`; else
+// unchanged.
 double reference_rounded(const struct reference *r, double value, double size);
 vec3 reference_rounded3(const struct reference *r, vec3 v, double size);
-// With as_single: as a float; else as it is.
+// With as_single: rounded to a float; else unchanged.
 double reference_stored(const struct reference *r, double value);
 struct surface;
 vec3 reference_stored3(const struct reference *r, vec3 v);
 // Where the checker's cells are counted, in scene units: from a sphere's centre (`arm` is the way from
-// there), along the edges of a parallelogram, and in a mesh's own coordinates. `b` are the hit's
-// barycentrics.
+// there), along the edges of a parallelogram, and in a mesh's own coordinates. `b`: the hit's barycentrics.
 vec3 reference_checker_place(const struct scene_body *body, const struct surface *s, const double b[3],
                              vec3 arm);
 
 // ---- bodies.c
 
 // Fills bodies, instances and materials; jumps to the arena's guard where memory ends. false: there are more
-// triangles than numbers.
+// triangles than can be numbered.
 bool reference_make_bodies(struct reference *r);
 // The primitive of a number in IR order; false: a triangle without area, which no ray can hit.
 bool reference_make_primitive(const struct reference *r, const struct body *body, uint32_t triangle,
@@ -163,10 +162,10 @@ static inline bool reference_is_sphere(const struct reference *r, uint32_t index
 
 // ---- instances.c
 
-// Chooses which bodies are instances, and fills shared_meshes and instances but for what trees tell. Jumps to
-// the arena's guard.
+// Chooses which bodies are instances, and fills shared_meshes and instances, except for what needs the trees.
+// Jumps to the arena's guard.
 void reference_share(struct reference *r);
-// Once the tree of its mesh is there: the box of an instance.
+// The box of an instance, once its mesh's tree is built.
 void reference_place(const struct reference *r, struct instance *instance);
 // The instance that has this triangle.
 const struct instance *reference_instance(const struct reference *r, uint32_t index);
@@ -193,7 +192,7 @@ static inline struct start reference_start(vec3 at) {
     return (struct start){.at = at, .left = NO_PRIMITIVE};
 }
 
-// How wide a pixel is along a ray: its width at the start and what it gains for each length. Where it is
+// How wide a pixel is along a ray: its width at the start and its growth per length. Where the width is
 // negative, rays have crossed.
 struct cone {
     double width, spread;
@@ -240,7 +239,7 @@ struct surface {
     struct reference_texel texel;
     double alpha; // of its facets; 0: smooth
     vec3 facet;   // the normal that reflects and refracts: the shading normal, or that of reference_roughen
-    // Of a ray that comes from a place inside certain media: reference_cross.
+    // For a ray that comes from a place inside certain media: reference_cross.
     double index_before, index_after;
     struct inside after; // once the ray is through
     bool passes;         // it goes on unseen: nothing changes here
@@ -249,37 +248,38 @@ struct surface {
 
 void reference_surface(const struct reference *r, const struct ray *ray, const struct intersection *hit,
                        struct surface *out);
-// Of a rough surface the facet that a ray hits, whose key is `key`.
+// For a rough surface the facet that a ray with key `key` hits.
 void reference_roughen(const struct reference *r, struct surface *s, vec3 direction,
                        const struct points *points, uint32_t key);
 vec3 reference_mirrored(const struct reference *r, const struct surface *s, vec3 direction);
-// What becomes of light that meets a surface.
+// How light that meets a surface is divided.
 struct split {
     vec3 bent;
-    bool through;     // else total reflection
+    bool through;     // false: total reflection
     double reflected; // with fresnel: the share of the light that the surface reflects
 };
 void reference_split(const struct reference *r, const struct surface *s, vec3 direction, struct split *out);
 // The weights of the rays that leave.
 double reference_reflection(const struct surface *s, const struct split *split);
 double reference_refraction(const struct surface *s, const struct split *split);
-// What shines through a surface straight, as shadow rays go.
+// The share that passes straight through a surface, as for shadow rays.
 double reference_shine(const struct surface *s, vec3 direction);
 
 // ---- media.c
 
-// What the camera is inside, and whether rays must know such things. Once the tree is made. false: no memory.
+// What the camera is inside, and whether rays must know their media. Call it after the tree is made. false:
+// no memory.
 bool reference_make_media(struct reference *r);
-// Which media are on both sides of a surface.
+// Finds the media on both sides of a surface.
 void reference_cross(const struct reference *r, const struct inside *before, struct surface *s);
 // The body that fills the place; HIT_NONE: air.
 uint32_t reference_filling(const struct reference *r, const struct inside *inside);
-// What is left of light after a way in the medium that fills a place.
+// The share of light left after travelling through the medium that fills a place.
 vec3 reference_left(const struct reference *r, const struct inside *inside, double way);
 
 // ---- paint.c
 
-// Replaces the colours that an image has, and those of a filtered checker; `arm`: from a sphere's centre.
+// Replaces the colours that come from an image or a filtered checker; `arm`: from a sphere's centre.
 void reference_paint(const struct reference *r, const struct ray *ray, const double b[3], vec3 arm,
                      struct surface *s);
 // The cone of the camera's ray, and of rays that leave a surface.
@@ -302,7 +302,7 @@ vec3 reference_background(const struct reference *r, vec3 direction);
 struct lighting {
     vec3 sum;
     uint32_t considered, lit;     // bits of lights 0..31
-    uint32_t shadow_rays, unseen; // the latter on their way
+    uint32_t shadow_rays, unseen; // `unseen`: crossings between equal media on the way of shadow rays
 };
 void reference_light(const struct reference *r, const struct surface *s, vec3 direction,
                      const struct inside *inside, const struct points *points, uint32_t key,
@@ -343,16 +343,16 @@ struct branch {
     enum reference_kind kind;
 };
 
-// Rays that wait.
+// Rays that wait to be followed.
 struct queue {
     struct branch *items;
     uint32_t count, capacity;
-    bool heaviest_first; // by throughput; else last in, first out
+    bool heaviest_first; // the ray with the most throughput first; else last in, first out
     bool failed;         // no memory
-    // Asked now and then while a sample is followed: false ends it. May be NULL.
+    // Called now and then while a sample is followed: false ends it. May be NULL.
     bool (*goes_on)(void *context);
     void *context;
-    uint64_t rays; // followed since somebody set it to 0
+    uint64_t rays; // followed since the caller last set it to 0
 };
 void reference_queue_finish(struct queue *queue);
 

@@ -1,4 +1,4 @@
-// Points of discs and of frames around a vector: the same samples as every tracer's.
+// Points on discs and frames around a vector: the same samples as in every tracer.
 #include "reference/reference_internal.h"
 
 void reference_disc(double across, double down, double *x, double *y) {

@@ -1,4 +1,4 @@
-// What single precision makes of a number: the error of its computation is taken as half a unit in the last
+// How single precision would round a number: the error of its computation is taken as half a unit in the last
 // place, up or down at random (Parker 1997, "Monte Carlo Arithmetic"), drawn from the number's own bits, so
 // that every run draws the same.
 #include "core/splitmix.h"

@@ -3,7 +3,7 @@
 
 #include "grammar/ir.h"
 
-// Where a ray comes upon a sphere from outside; not a number: nowhere.
+// Where a ray enters a sphere from outside; NaN: nowhere.
 static double on_sphere(vec3 way, vec3 direction, double radius) {
     const double dd = vec3_dot(direction, direction), middle = vec3_dot(way, direction) / dd;
     const vec3 beside = vec3_sub(way, vec3_mul(direction, middle));
@@ -13,7 +13,7 @@ static double on_sphere(vec3 way, vec3 direction, double radius) {
     return middle - sqrt(deep / dd);
 }
 
-// The same of a panel, on the side that it shines on: Cramer's rule.
+// The same for a panel, on the side that it shines on: Cramer's rule.
 static double on_panel(vec3 way, vec3 direction, const struct view_light *light) {
     const vec3 u = light->edge_u, v = light->edge_v, across = vec3_cross(u, v);
     const double below = -vec3_dot(direction, across);

@@ -1,4 +1,4 @@
-// What a ray hit, and where light comes from that leaves it (docs/language.md, "Hit" and "Checker").
+// What a ray hit, and where light that leaves it comes from (docs/language.md, "Hit" and "Checker").
 #include "core/angle.h"
 #include "reference/exact.h"
 #include "reference/reference_internal.h"
@@ -26,8 +26,8 @@ static double cell_of(double place, double size) {
     return floor(place / size);
 }
 
-// How large the numbers are from which a device computes a place of the checker: those of the hit, in the
-// checker's units; of a parallelogram, the length of its edges.
+// The size of the numbers from which a device computes a place on the checker: those of the hit, in the
+// checker's units; for a parallelogram, the length of its edges.
 static double checker_error(const struct reference *r, const struct scene_body *body, const struct surface *s,
                             vec3 place) {
     if (!r->input.as_single)
@@ -61,7 +61,7 @@ static void take_material(const struct reference *r, const struct scene_body *bo
 
 // ---- normals
 
-// The interpolated unit normal on the side of the geometric one; that one where they cancel.
+// The interpolated unit normal on the side of the geometric one; the geometric one where the normals cancel.
 static vec3 smooth_normal(const struct body *body, const struct surface *s, const double b[3]) {
     vec3 normals[3];
     for (int k = 0; k < 3; k++)
@@ -85,7 +85,7 @@ static void sphere_surface(const struct reference *r, const struct ray *ray, con
                            struct surface *s, vec3 *arm) {
     vec3 centre = vertex(p, 0);
     vec3 at = vec3_add(ray->start.at, vec3_mul(ray->direction, s->distance));
-    // A place on the ray is as wrong as it is far away.
+    // The error of a place on the ray grows with its distance.
     at = reference_rounded3(r, at, vec3_max_abs(at));
     vec3 outward = reference_rounded3(r, vec3_unit(vec3_sub(at, centre)), 1);
     // Back onto the sphere: the error is then that of the radius, whatever the ray's length.
@@ -168,8 +168,8 @@ static vec3 mirror(vec3 d, vec3 n) {
     return vec3_sub(d, vec3_mul(n, 2 * vec3_dot(d, n)));
 }
 
-// Between the heights of a unit sphere's cap that the stretched ray sees (Dupuy and Benyoub 2023): its facets
-// are GGX's.
+// Samples a height of the unit sphere's cap that the stretched ray sees (Dupuy and Benyoub 2023): the facets
+// are those of GGX.
 void reference_roughen(const struct reference *r, struct surface *s, vec3 direction,
                        const struct points *points, uint32_t key) {
     if (points->bits == 0)
@@ -195,7 +195,7 @@ void reference_roughen(const struct reference *r, struct surface *s, vec3 direct
 
 vec3 reference_mirrored(const struct reference *r, const struct surface *s, vec3 direction) {
     vec3 out = mirror(direction, s->facet);
-    // Another facet turns back what would go through the surface.
+    // A ray that would go through the surface is turned back by another facet.
     if (s->alpha > 0 && vec3_dot(out, s->geometric) < 0)
         out = mirror(out, s->geometric);
     if (vec3_dot(out, s->geometric) <= 0)
@@ -203,7 +203,7 @@ vec3 reference_mirrored(const struct reference *r, const struct surface *s, vec3
     return reference_rounded3(r, vec3_unit(out), 1);
 }
 
-// The cosine of a ray to the normal, and the square of that behind the surface: below 0 nothing comes
+// The cosine of a ray to the normal, and the squared cosine behind the surface: below 0 nothing comes
 // through.
 struct angles {
     double c, k;
@@ -226,7 +226,7 @@ static double of_faces(double one, bool pane) {
     return pane ? 2 * one / (1 + one) : one;
 }
 
-// Of unpolarised light from index n to m (Fresnel 1823; Born and Wolf 1999, section 1.5.2).
+// For unpolarised light from index n to m (Fresnel 1823; Born and Wolf 1999, section 1.5.2).
 static double fresnel(double n, double m, struct angles at, bool pane) {
     if (n == m)
         return 0;
@@ -238,7 +238,7 @@ static double fresnel(double n, double m, struct angles at, bool pane) {
     return (of_faces(across, pane) + of_faces(along, pane)) / 2;
 }
 
-// From the thinner side, whichever the ray comes from: as of light that was bent on its way in.
+// From the thinner side, whichever side the ray comes from: as for light that was bent on its way in.
 double reference_shine(const struct surface *s, vec3 direction) {
     if (!s->is->fresnel)
         return s->is->refraction;

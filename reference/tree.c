@@ -1,8 +1,8 @@
 // The reference's own tree: binary, boxes in double, split by the surface area heuristic in bins (Wald 2007,
 // "On fast Construction of SAH-based Bounding Volume Hierarchies").
 //
-// A range of n items has 2n - 1 nodes at most, its first child's after its own node, then its second's: so
-// every node's place is known before its children are built, and the tree does not depend on threads.
+// A range of n items has at most 2n - 1 nodes: its own node, then its first child's, then its second child's.
+// So every node's place is known before its children are built, and the tree does not depend on threads.
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "reference/reference_internal.h"
@@ -15,12 +15,12 @@ enum {
     PIECE_INSTANCES = 64,
     BINS = 16,
     LEAF_MOST = 4,
-    DEPTH_MOST = 64,   // below, ranges are halved: 32 levels more at most
-    TASK_ITEMS = 8192, // ranges of less are built by one thread
+    DEPTH_MOST = 64,   // below this, ranges are halved: at most 32 more levels
+    TASK_ITEMS = 8192, // smaller ranges are built by one thread
 };
 
-// Boxes grow by this part of their largest coordinate: the triangle test's rounding must not see what the
-// box test does not.
+// Boxes grow by this fraction of their largest coordinate: rounding must not let the triangle test hit what
+// the box test misses.
 #define BOX_PAD 0x1p-49
 
 struct box {
@@ -41,7 +41,7 @@ struct range {
 
 struct building {
     struct reference *r;
-    const struct shared_mesh *shared; // whose tree it is; NULL: the scene's
+    const struct shared_mesh *shared; // the mesh whose tree it is; NULL: the scene's
     struct item *items;
     struct tree_node *nodes;
     struct range *tasks;
@@ -109,7 +109,7 @@ static void make_items(void *context, size_t begin, size_t end) {
     }
 }
 
-// Of a mesh, whose triangles are judged where they are shown.
+// For a mesh, whose triangles are checked where they are shown.
 static void make_mesh_items(void *context, size_t begin, size_t end) {
     struct building *b = context;
     const struct mesh *mesh = b->shared->mesh;
@@ -157,7 +157,7 @@ static double centre(const struct item *item, int axis) {
     return 0.5 * item->box.lower[axis] + 0.5 * item->box.upper[axis];
 }
 
-// Half the area, as a part of a box of this size: no overflow.
+// Half the area, relative to a box of this size: no overflow.
 static double area(const struct box *box, double size) {
     double d[3];
     for (int a = 0; a < 3; a++)
@@ -176,7 +176,7 @@ static int bin_of(const struct cut *cut, const struct item *item) {
     return place >= BINS - 1 ? BINS - 1 : place > 0 ? (int)place : 0;
 }
 
-// The best bin to begin the right side with, and its cost; no split where all lie in one bin.
+// The best bin for the right side to begin with, and its cost; no split if all lie in one bin.
 static double best_bin(const struct building *b, struct range range, double size, struct cut *cut) {
     struct box boxes[BINS];
     size_t counts[BINS] = {0};
@@ -238,7 +238,7 @@ static struct cut middle_of(const struct box *centres) {
     return cut;
 }
 
-// By the surface area that the two sides' boxes have.
+// By the surface areas of the two sides' boxes.
 static struct cut best_of(const struct building *b, struct range range, const struct box *centres,
                           double size) {
     struct cut best = {.axis = -1};
@@ -355,7 +355,7 @@ static bool build(struct building *b, size_t count) {
     return true;
 }
 
-// Makes the tree over items whose number it returns in *count; false: no memory.
+// Makes the tree over items and returns their number in *count; false: no memory.
 static bool make_nodes(struct building *b, uint32_t total, parallel_body *make, uint32_t *count) {
     *count = 0;
     b->items = heap_array(total, sizeof *b->items);

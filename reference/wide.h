@@ -19,7 +19,7 @@ struct wide3 {
     struct wide x, y, z;
 };
 
-// Where |a| >= |b|, or a is 0.
+// Requires |a| >= |b|, or a = 0.
 static inline struct wide wide_ordered(double a, double b) {
     const double sum = a + b;
     return (struct wide){sum, b - (sum - a)};

@@ -151,7 +151,7 @@ static int compare_bodies(const void *a, const void *b) {
     return x->body < y->body ? -1 : x->body > y->body;
 }
 
-// The bodies that bring triangles: the first one of each mesh, and all without a mesh, in IR order.
+// The bodies that bring triangles: the first body of each mesh, and every body without a mesh, in IR order.
 static uint32_t keep_first_uses(struct mesh_use *uses, uint32_t count) {
     uint32_t kept = 0;
     qsort(uses, count, sizeof *uses, mesh_use_compare);
@@ -162,7 +162,7 @@ static uint32_t keep_first_uses(struct mesh_use *uses, uint32_t count) {
     return kept;
 }
 
-// The body whose triangles exceed `most`, those of a mesh counted once; NULL: none does.
+// The body whose triangles push the total over `most`, a mesh counted once; NULL: none does.
 static const struct scene_body *first_over(const struct scene *scene, struct mesh_use *uses, uint64_t most,
                                            uint64_t *total) {
     const struct scene_body *over = NULL;
@@ -184,7 +184,7 @@ span scene_body_label(const struct scene *scene, const struct scene_body *body) 
     return places ? ir_place_label(places, body->head) : SPAN_NONE;
 }
 
-// Reported at the body with which there are too many.
+// Reported at the body where the count first exceeds the limit.
 static bool check_items(const struct scene *scene, struct diag_sink *sink) {
     const struct scene_body *over = NULL;
     uint64_t total = 0;

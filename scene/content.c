@@ -22,8 +22,8 @@ static void add_mesh(struct hash128 *h, const struct mesh *mesh) {
     hash128_array(h, mesh->textured, mesh->triangle_count, sizeof *mesh->textured);
 }
 
-// Meshes, and which material each of their groups has. A mesh is read once; bodies that show it again name
-// one that did.
+// Meshes, and which material each of their groups has. A mesh is read once; bodies that show it again refer
+// to the first.
 static void add_bodies(struct hash128 *h, const struct scene *scene) {
     for (uint32_t i = 0; i < scene->body_count; i++) {
         const struct scene_body *body = &scene->bodies[i];
@@ -47,7 +47,8 @@ static void add_picture(struct hash128 *h, const struct picture *picture) {
     hash128_array(h, picture->pixels, picture->size_bytes, 1);
 }
 
-// The images of all materials: their levels follow from them. One that was hashed is named by its number.
+// The images of all materials: their levels follow from them. An image already hashed is referred to by its
+// number.
 static void add_images(struct hash128 *h, const struct scene *scene) {
     for (uint32_t i = 0; i < scene->material_count; i++)
         for (int k = 0; k < ASSETS_IMAGES; k++) {
@@ -60,7 +61,7 @@ static void add_images(struct hash128 *h, const struct scene *scene) {
 
 void scene_content(struct hash128 *h, const struct scene *scene) {
     ir_hash(h, &SCHEMA_SCENE, scene->ir);
-    // The scene's materials again, as they are used, and those that material files of meshes add.
+    // The scene's materials again, as they are used, and those that the material files of meshes add.
     hash128_whole(h, scene->assets->material_count);
     for (uint32_t i = 0; i < scene->assets->material_count; i++)
         ir_hash(h, &SCHEMA_MATERIAL, &scene->assets->materials[i]);

@@ -1,7 +1,7 @@
-// The hash of all that a scene is: its IR, and what the files that it names hold, as they were decoded.
+// The hash of everything that makes up a scene: its IR and the decoded contents of the files that it names.
 //
-// Two spellings of a scene have the same one, and so has a scene that was moved with its files. Not in it:
-// comments, the order of keys, where something is in a file. The pixels of images must be there
+// Two spellings of a scene have the same hash, and so does a scene that was moved with its files. Not
+// included: comments, the order of keys, where something is in a file. The pixels of images must be there
 // (session_settle). Thread safety: pure.
 #ifndef GLINT_SCENE_CONTENT_H
 #define GLINT_SCENE_CONTENT_H

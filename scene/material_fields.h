@@ -18,24 +18,24 @@
     FIELD(NUMBER, specular_weight, MEDIUM, MATERIAL, ir->albedo.specular) \
     FIELD(NUMBER, reflection, MEDIUM, MATERIAL, ir->albedo.reflection) \
     FIELD(NUMBER, refraction, MEDIUM, MATERIAL, ir->albedo.refraction) \
-    /* Of the odd cells too, where it is a checker; else equal. */ \
+    /* For a checker's even and odd cells; without a checker both are equal. */ \
     FIELD(COLORS, diffuse, MEDIUM, MATERIAL, {paint_color(ir, 0, transfer), paint_color(ir, 1, transfer)}) \
     FIELD(FLAG, checker, MEDIUM, APART, has_checker(ir)) \
-    /* Edge of a checker's cells, scene units; 1 without. */ \
+    /* Edge of a checker's cells, scene units; 1 without a checker. */ \
     FIELD(NUMBER, cell, MEDIUM, MATERIAL, has_checker(ir) ? ir->diffuse_color.checker.size : 1) \
     /* The checker is filtered. */ \
     FIELD(FLAG, soft, MEDIUM, APART, has_checker(ir) && ir->diffuse_color.checker.antialias) \
     FIELD(COLOR, specular, MEDIUM, MATERIAL, scene_linear_color(ir->specular_color.color, transfer)) \
     FIELD(COLOR, emission, MEDIUM, MATERIAL, scene_linear_color(ir->emission, transfer)) \
-    /* Of the diffuse and of the specular colour: in place of it. scene_build_textures makes them. */ \
+    /* Images that replace the diffuse and the specular colour. scene_build_textures makes them. */ \
     FIELD(IMAGES, images, MEDIUM, APART, {{NULL}}) \
     FIELD(NUMBER, specular_exponent, MEDIUM, MATERIAL, ir->specular_exponent) \
     FIELD(NUMBER, refractive_index, MEDIUM, MATERIAL, ir->refractive_index) \
     FIELD(FLAG, fresnel, MEDIUM, MATERIAL, ir->fresnel) \
-    /* Of the distribution of micro normals: 0 is smooth. */ \
+    /* Parameter of the distribution of micro normals: 0 is smooth. */ \
     FIELD(NUMBER, alpha, MEDIUM, MATERIAL, ir->roughness * ir->roughness) \
     FIELD(WHOLE, priority, BESIDE, APART, ir->priority) \
-    /* At most SCENE_ABSORPTION_MAX: exp(-absorption * way) is left of light. */ \
+    /* At most SCENE_ABSORPTION_MAX: after a distance d, exp(-absorption * d) of the light is left. */ \
     FIELD(COLOR, absorption, MEDIUM, FLAT, absorption_of(ir, transfer)) \
     /* FEATURE_ bits that it asks for (grammar/ir_features.h). */ \
     FIELD(BITS, features, BESIDE, APART, ir_material_features(ir))

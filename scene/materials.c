@@ -17,7 +17,7 @@ vec3 scene_linear_color(struct ir_color color, unsigned transfer) {
     return (vec3){srgb_decode(shown.x), srgb_decode(shown.y), srgb_decode(shown.z)};
 }
 
-// What of a channel is lost per scene unit, where `left` of it is left after a distance.
+// The loss per scene unit in a channel of which `left` remains after a distance.
 static double absorbed(double left, double distance) {
     return left < 1 ? fmin(-log(left) / distance, SCENE_ABSORPTION_MAX) : 0;
 }
@@ -74,7 +74,7 @@ void scene_build(const struct ir_scene *ir, const struct assets *assets, struct 
 
 // ---- what surfaces send on
 
-// Weights that are written to add up to 1 may round to a little more.
+// Weights written to add up to 1 may round to a little more.
 static const double GAIN_ROUNDING = 1e-9;
 
 double scene_gain(const struct ir_material *material) {
@@ -83,7 +83,7 @@ double scene_gain(const struct ir_material *material) {
 }
 
 bool scene_amplifies(const struct scene *scene) {
-    double first = 0, second = 0; // the two largest, one of each body
+    double first = 0, second = 0; // the two largest gains, from two different bodies
     for (uint32_t i = 0; i < scene->body_count; i++) {
         const struct scene_body *body = &scene->bodies[i];
         double gain = 0, refraction = 0;
@@ -92,7 +92,7 @@ bool scene_amplifies(const struct scene *scene) {
             gain = fmax(gain, scene_gain(material));
             refraction = fmax(refraction, material->albedo.refraction);
         }
-        // Within a mesh, and inside glass, light comes back to the surface that it left.
+        // Within a mesh, and inside glass, light returns to the surface that it left.
         if (gain > 1 + GAIN_ROUNDING &&
             (shape_traits(body->shape).sees_itself || (body->closed && refraction > 0)))
             return true;

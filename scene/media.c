@@ -8,7 +8,7 @@
 
 enum {
     COMPARED_MAX = 100000000, // pairs of boxes
-    DIRECTIONS = 8,           // tried before a mesh whose edges they all meet
+    DIRECTIONS = 8,           // directions tried before a mesh whose edges every ray meets
 };
 
 // ---- materials
@@ -35,7 +35,7 @@ static int compare_color(vec3 a, vec3 b) {
     return x ? x : y ? y : compare_number(a.z, b.z);
 }
 
-// A file is one picture, whoever shows it. In which order two of them come matters to nobody.
+// An image is identified by its file, whoever shows it. The order of two images does not matter.
 static int compare_image(const struct scene_image *a, const struct scene_image *b) {
     const double own[] = {a->filter, a->wrap, a->u[0], a->u[1], a->u[2], a->v[0], a->v[1], a->v[2]};
     const double other[] = {b->filter, b->wrap, b->u[0], b->u[1], b->u[2], b->v[0], b->v[1], b->v[2]};
@@ -96,7 +96,8 @@ static bool is_ball(const struct scene_body *body) {
     return shape_traits(body->shape).items == SHAPE_BALL;
 }
 
-// Between the sphere's centre and the other one, or the nearest point of the other's box.
+// By the distance from the sphere's centre to the other sphere's centre, or to the nearest point of the
+// other's box.
 static bool may_overlap(const struct scene_body *a, const struct scene_body *b) {
     if (!do_boxes_overlap(a, b))
         return false;
@@ -110,7 +111,7 @@ static bool may_overlap(const struct scene_body *a, const struct scene_body *b) 
     return vec3_length(vec3_sub(center, nearest)) < ball->radius;
 }
 
-// The axis along which the bodies are spread most, as far as their own sizes go.
+// The axis along which the bodies are spread most, relative to their own sizes.
 static int widest_axis(const struct medium *media, uint32_t count) {
     int best = 0;
     double most = -1;
@@ -211,8 +212,8 @@ enum crossing {
     CROSSING_EDGE, // the ray hits an edge: another direction is needed
 };
 
-// Triangles that share an edge compute it from the same numbers, so that none or one of them is hit (Woop,
-// Benthin and Wald 2013).
+// Triangles that share an edge compute it from the same numbers, so at most one of them is hit (Woop, Benthin
+// and Wald 2013).
 static enum crossing cross_triangle(const struct upward *ray, const vec3 corners[3], double *height) {
     double p[3][3];
     for (int k = 0; k < 3; k++)
@@ -275,7 +276,7 @@ static bool is_in_box(const struct scene_body *body, vec3 p) {
            p.z >= body->lower.z && p.z <= body->upper.z;
 }
 
-// The farther the way out, the earlier the ray came in.
+// The farther away the ray leaves a body, the earlier it entered it.
 static void put(struct scene_inside *out, double ways[SCENE_MEDIA_MOST], uint32_t body, double way) {
     uint32_t at = out->count;
     if (at == SCENE_MEDIA_MOST) {

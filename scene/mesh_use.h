@@ -15,10 +15,10 @@ struct mesh_use {
     uint32_t body; // its place in the scene's bodies
 };
 
-// By mesh, in no order that means anything, and those of one mesh in the order of the bodies: for qsort.
+// For qsort: by mesh, in an arbitrary order, and within a mesh in the order of the bodies.
 int mesh_use_compare(const void *a, const void *b);
-// The bodies of at least `triangles_least` triangles of a mesh, which are fewer than 2^32, into `uses`, which
-// has room for all bodies, in that order. Returns how many there are.
+// Writes the bodies whose mesh has at least `triangles_least` triangles, fewer than 2^32 bodies, to `uses` in
+// that order; it has room for all bodies. Returns how many there are.
 uint32_t mesh_uses(const struct scene *scene, uint32_t triangles_least, struct mesh_use *uses);
 
 #endif

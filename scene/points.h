@@ -1,4 +1,4 @@
-// Where a sample of a pixel takes its points of what has extent: the same for GPU and reference
+// Where a pixel's sample takes its points on anything with extent: the same for GPU and reference
 // (shaders/light/points.h says which, and names the keys).
 //
 // Units: pixels; points in the unit square. Errors: none. Thread safety: pure.
@@ -13,14 +13,14 @@ struct points {
     uint32_t bits; // points_bits
 };
 
-// Bits of the numbers of `samples` samples that begin with number `first`, at most POINT_MOST. 0: the only
-// sample of a picture, which takes the middle of everything.
+// Bits of the sample numbers of `samples` samples, the first of which is number `first`, at most POINT_MOST.
+// 0: the only sample of a picture, which takes the middle of everything.
 uint32_t points_bits(uint32_t first, uint32_t samples);
 
-// All bits of the sample's point, of a picture of one sample too.
+// All bits of the sample's point, also in a picture of one sample.
 void points_words(const struct points *points, uint32_t key, uint32_t *a, uint32_t *b);
 
-// The sample's point of what has the key: both coordinates in [0, 1), multiples of 2^-24.
+// The sample's point for the key: both coordinates in [0, 1), multiples of 2^-24.
 void points_at(const struct points *points, uint32_t key, double *a, double *b);
 
 #endif

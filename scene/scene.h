@@ -33,8 +33,8 @@ enum scene_shape {
 // In IR order (ir.h). Models whose mesh could not be loaded are bodies without triangles. What the tracer's
 // geometry depends on is compared by tracer/flatten/flatten_keep.c.
 struct scene_body {
-    // Of the language: its name is what people call the body. NULL: the program made it, and it is in
-    // no file.
+    // From the language: its name is what users call the body. NULL: the program made the body, and no file
+    // holds it.
     const struct schema_element *element;
     uint32_t index; // among the bodies of this element
     const struct ir_head *head;
@@ -46,15 +46,15 @@ struct scene_body {
     double radius;             // of a sphere
     const struct mesh *mesh;   // NULL: another shape, or not loaded
     const uint32_t *materials; // by group: indices into scene.materials
-    uint32_t group_count;      // 1 of all but meshes
+    uint32_t group_count;      // 1 except for meshes
     uint32_t triangle_count;
     bool closed;       // it has an inside: refraction enters and leaves, else it is a thin pane
     bool mirrored;     // the determinant is negative: the mesh is turned inside out
     bool smooth;       // normals are interpolated
-    vec3 lower, upper; // a box around it: of a mesh, around its transformed box; lower > upper: no mesh
+    vec3 lower, upper; // a box around it; for a mesh, around its transformed box; lower > upper: no mesh
 };
 
-// Black after any way that is not 0, and finite.
+// Black after any distance other than 0, and finite.
 #define SCENE_ABSORPTION_MAX 1e30
 
 // What a level's pixels are.
@@ -62,20 +62,20 @@ enum scene_texels {
     SCENE_TEXELS_BYTES,  // level 0 of an 8-bit image: three bytes, as the file has them
     SCENE_TEXELS_PACKED, // its other levels: three linear values of 21 bits in 64, r in the lowest
                          // (scene/textures.c)
-    SCENE_TEXELS_FLOATS, // levels of others: three linear floats; level 0: as the picture has them
+    SCENE_TEXELS_FLOATS, // levels of other images: three linear floats; level 0: as the picture has them
 };
 
-// An image on surfaces, with levels of half its size each, down to one pixel. What a pixel is, is the image's
-// file's; levels are made here, once, for all that trace.
+// An image on surfaces, with levels of half its size each, down to one pixel. The image's file defines the
+// pixels; levels are made here, once, for all tracers.
 struct scene_texture {
     struct scene_texture *next;    // of the scene, in no order that matters
     uint32_t number;               // among them, from 0
     const struct picture *picture; // level 0
-    bool is_srgb;                  // stored values are sRGB; else as they are
+    bool is_srgb;                  // stored values are sRGB; else used as they are
     uint32_t level_count;
     struct scene_level {
         uint32_t width, height;
-        const void *pixels; // rows from the top; level 0: NULL, and the picture's
+        const void *pixels; // rows from the top; level 0: NULL, the picture's pixels are used
         enum scene_texels texels;
     } levels[SCENE_LEVELS_MAX];
 };
@@ -84,8 +84,8 @@ struct scene_texture {
 struct scene_image {
     const struct picture *picture;       // NULL: it shows none
     const struct scene_texture *texture; // the same; NULL also where its pixels are not there
-    // From the coordinates of a surface (u, v) to those of the image (0..1, v upwards): rows u, v of a
-    // matrix, and what is added.
+    // From a surface's coordinates (u, v) to the image's (0..1, v upwards): rows u, v of a matrix, and the
+    // offset.
     double u[3], v[3];
     unsigned filter, wrap; // ir_filter, ir_wrap
 };
@@ -103,8 +103,8 @@ struct scene_material {
     SCENE_MATERIAL_FIELDS(SCENE_DECLARE_FIELD)
 };
 
-// Whether its colours need more than two of a checker's cells: for what shows scenes otherwise, and must
-// refuse.
+// Whether its colours need more than a checker's two cell colours: for code that shows scenes otherwise, and
+// must refuse.
 static inline bool scene_material_is_painted(const struct scene_material *m) {
     return m->soft || m->images[ASSETS_DIFFUSE].texture || m->images[ASSETS_SPECULAR].texture;
 }
@@ -142,8 +142,9 @@ uint32_t scene_body_material(const struct scene_body *body, uint32_t triangle);
 affine3 scene_parallelogram(vec3 corner, vec3 edge_u, vec3 edge_v);
 // Moves a body: object_to_world and, of a sphere, the radius; its box follows.
 void scene_body_place(struct scene_body *body, affine3 object_to_world, double radius);
-// The corners of a triangle in file order, through a map in place of object_to_world: often the same
-// relative to an origin (transform_relative), which is then taken off before anything is rounded.
+// The corners of a triangle in file order, through a map used in place of object_to_world: often
+// object_to_world relative to an origin (transform_relative), so the origin is subtracted before anything is
+// rounded.
 void scene_corners(const struct scene_body *body, const affine3 *map, uint32_t triangle, vec3 corners[3]);
 // The least box around a body, through such a map; false: it is empty.
 bool scene_body_bounds(const struct scene_body *body, const affine3 *map, vec3 *lower, vec3 *upper);
@@ -153,7 +154,8 @@ bool scene_bounds(const struct scene *scene, vec3 *lower, vec3 *upper);
 void scene_check_reach(const struct scene *scene, struct diag_sink *sink);
 // Where the scene file names a body; SPAN_NONE for a scene without places.
 span scene_body_label(const struct scene *scene, const struct scene_body *body);
-// Triangles and spheres that bodies may show together: their numbers share a word with what went wrong there.
+// The most triangles and spheres that bodies may show together: an item's number shares a word with the kind
+// of fault.
 #define SCENE_ITEMS_MAX 0x3ffffffdu
 // Whether all bodies together have no more triangles than the limit, those of a mesh counted once, and show
 // no more items than can be numbered; else adds an error (E501).
@@ -173,7 +175,7 @@ bool scene_body_has_image(const struct scene *scene, const struct scene_body *bo
 // How much light a material passes on at most, as a share of what it receives: Fresnel's shares add up to 1.
 double scene_gain(const struct ir_material *material);
 // Whether light can come back to the same surfaces with more than it had: each further bounce then adds to
-// the picture, so that there is none of all paths.
+// the picture, so the sum over all paths does not exist.
 bool scene_amplifies(const struct scene *scene);
 
 // ---- colours

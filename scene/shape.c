@@ -34,7 +34,7 @@ bool shape_is_same(const struct scene_body *a, const struct scene_body *b) {
 
 // ---- corners
 
-// Shared corners are computed in one way, so that both triangles hold the same bits.
+// Shared corners are computed the same way, so both triangles hold the same bits.
 static void parallelogram_corners(const affine3 *map, uint32_t triangle, vec3 corners[3]) {
     vec3 v = mat3_column(map->linear, 1);
     vec3 along_u = vec3_add(map->offset, mat3_column(map->linear, 0));
@@ -105,7 +105,8 @@ static struct box transformed_box(const struct mesh *mesh, const affine3 *map) {
     return box;
 }
 
-// `is_least`: of a mesh, around its transformed positions, which takes as long as it has some.
+// `is_least`: for a mesh, the box around its transformed positions, which takes time in proportion to their
+// number.
 static struct box box_of(const struct scene_body *body, const affine3 *map, bool is_least) {
     switch (body->shape) {
     case SCENE_SPHERE:

@@ -1,4 +1,4 @@
-// What is asked of a body's shape, one function for each question: a shape's page is its cases.
+// What is asked of a body's shape, one function for each question: a shape is described by its cases.
 //
 // A new shape is a case of every `switch` over enum scene_shape, which has no default: -Wswitch, an error in
 // every build, lists those that lack it (CONTRIBUTING.md, "How to add a shape"). All in double precision and
@@ -9,7 +9,7 @@
 
 #include "scene/scene.h"
 
-// What trees hold of a body, and rays are intersected with.
+// What trees store for a body, and rays are intersected with.
 enum shape_items {
     SHAPE_BALL, // it is one sphere
     SHAPE_TRIANGLES,
@@ -17,21 +17,21 @@ enum shape_items {
 
 struct shape_traits {
     enum shape_items items;
-    bool needs_mesh;  // without one there is nothing of it
+    bool needs_mesh;  // without a mesh it does not exist
     bool is_flat;     // one plane face: two triangles that are the same surface, u and v along its edges
     bool has_radius;  // its size is the body's radius, so that its object space is as large as the scene's
     bool sees_itself; // light that leaves its surface may come back to it
 };
 struct shape_traits shape_traits(enum scene_shape shape);
 
-// Whether there is something to hit: not where its mesh could not be loaded.
+// Whether there is something to hit: false where its mesh could not be loaded.
 bool shape_is_there(const struct scene_body *body);
-// How many items trees hold of it.
+// How many items trees store for it.
 uint32_t shape_item_count(const struct scene_body *body);
 // Whether two bodies have the same surface, to the bit: shape, place and size. What it shows is not compared.
 bool shape_is_same(const struct scene_body *a, const struct scene_body *b);
-// What a camera is focused on, and a light in the body shares: the centre of a sphere, the middle of a
-// parallelogram, that of the box around a mesh.
+// What a camera focuses on, and where a light in the body sits: a sphere's centre, a parallelogram's middle,
+// or the middle of the box around a mesh.
 vec3 shape_middle(const struct scene_body *body);
 // Of a closed body; 0 of another.
 double shape_volume(const struct scene_body *body);

@@ -34,7 +34,8 @@ struct sky_size sky_size(const struct scene *scene) {
 
 // ---- rows
 
-// A place of the polar angle `angle` lies 1 - |y| from the nearer pole; these digits count near it.
+// A place at the polar angle `angle` lies 1 - |y| from the nearer pole; computed this way to keep digits near
+// it.
 static double gap_of(double angle, bool above) {
     const double half = above ? sin(angle / 2) : cos(angle / 2);
     return 2 * half * half;
@@ -47,7 +48,7 @@ static double angle_of(const struct filling *f, uint32_t row) {
     return row == f->size.rows ? PI : PI * (row - 0.5) / (f->size.rows - 1);
 }
 
-// Returns the share that the row has of the sphere, which it writes down.
+// Writes the row's share of the sphere down and returns it.
 static double put_place(const struct filling *f, uint32_t row) {
     const double begin = angle_of(f, row), end = angle_of(f, row + 1);
     const bool above = begin + end < PI || f->size.rows == 1;
@@ -69,7 +70,7 @@ static double brightness(const struct filling *f, size_t texel) {
     return sum;
 }
 
-// Of the four texels around a cell.
+// The sum over the four texels around a cell.
 static double cell(const struct filling *f, uint32_t row, uint32_t column) {
     if (!f->picture)
         return 1;
@@ -79,8 +80,8 @@ static double cell(const struct filling *f, uint32_t row, uint32_t column) {
            brightness(f, bottom * width + left) + brightness(f, bottom * width + right);
 }
 
-// Where the shares begin that `count` values have of 2^32; those that are not 0 have some. The last one's is
-// a little more than its due.
+// Where each of `count` values' share of 2^32 begins; values other than 0 get a share above 0. The last one
+// gets slightly more than its due.
 static void put_shares(const double *values, uint32_t count, double total, uint32_t *begin, size_t apart) {
     const double scale = total > 0 ? (0x1p32 - 1 - count) / total : 0;
     uint32_t sum = 0;

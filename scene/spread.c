@@ -20,7 +20,7 @@ struct spread spread_make(uint32_t width, uint32_t height, uint32_t cells) {
 }
 
 // A pixel of cell `index` of `cells` along one side of the picture. The place is drawn before it is rounded
-// to a pixel: cells of two and of three pixels would not give all pixels the same chance.
+// to a pixel: otherwise cells of two and three pixels would not give all pixels the same chance.
 static uint32_t pixel_in(uint32_t index, uint32_t cells, uint32_t pixels, uint32_t random) {
     if (cells == pixels)
         return index;

@@ -11,7 +11,8 @@ struct spread {
     uint32_t columns, lines; // of cells
 };
 
-// `cells` or a few more, about square; the whole picture, a pixel a cell, where that is not twice as much.
+// `cells` or a few more, about square; the whole picture, one pixel per cell, if that is less than twice as
+// many.
 struct spread spread_make(uint32_t width, uint32_t height, uint32_t cells);
 // The pixel of a cell below columns * lines.
 void spread_pixel(const struct spread *spread, uint32_t cell, uint32_t *x, uint32_t *y);

@@ -73,8 +73,8 @@ vec3 scene_texel(const struct scene_texture *t, uint32_t level, uint32_t x, uint
 
 // ---- levels
 
-// What of a level's row or column a pixel of the next one covers: of `size` pixels made `half`, pixel i
-// covers size / half of them, which need not be whole.
+// Which part of a level's row or column a pixel of the next level covers: when `size` pixels become `half`,
+// each new pixel covers size / half of them, which need not be whole.
 struct cover {
     uint32_t first, count; // at most three
     double weight[4];
@@ -93,9 +93,9 @@ static struct cover cover_of(uint32_t i, uint32_t size, uint32_t half) {
 
 struct halving {
     const struct scene_texture *texture;
-    uint32_t level; // that is made
+    uint32_t level; // the level being made
     void *pixels;
-    double decoded[256]; // of stored bytes, as scene_texel has them, which would take most of the time
+    double decoded[256]; // decoded stored bytes, as from scene_texel, which would take most of the time
 };
 
 // scene_texel of the level before.
@@ -180,8 +180,8 @@ static const struct scene_texture *texture_of(struct scene *scene, const struct 
     return t;
 }
 
-// The image lies between 0 and 1, is made smaller by `repeat`, turned about the middle and moved; here the
-// way back.
+// The image lies between 0 and 1, is made smaller by `repeat`, turned about the middle and moved; this is the
+// inverse.
 static struct scene_image placed_image(const struct ir_texture *ir) {
     const mat3 turn = mat3_rotation((vec3){0, 0, ir->rotation});
     const double c = turn.m[0][0], s = turn.m[1][0];

@@ -10,7 +10,7 @@ affine3 transform_of_model(const struct ir_model *model) {
 }
 
 // By cofactors: columns of the inverse are cross products of rows, over the determinant. Entries lie within
-// 1e-18 to 1e18, so that no product of three overflows.
+// 1e-18 to 1e18, so no product of three overflows.
 affine3 transform_inverse(affine3 map) {
     vec3 rows[3], columns[3];
     for (int i = 0; i < 3; i++)
@@ -28,7 +28,8 @@ affine3 transform_inverse(affine3 map) {
     return inverse;
 }
 
-// The matrix of cofactors is the inverse transpose times the determinant, whose sign is taken back.
+// The matrix of cofactors is the inverse transpose times the determinant; here the determinant's sign is
+// removed.
 mat3 transform_for_normals(mat3 linear) {
     double sign = mat3_determinant(linear) < 0 ? -1 : 1;
     mat3 out;

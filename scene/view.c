@@ -10,13 +10,13 @@
 
 // ---- the camera
 
-// Right and up for a direction of view. An up along the view was refused where it was written; the default
-// one is replaced: by +z where the view goes up, -z where it goes down.
+// Right and up vectors for a view direction. An up along the view was rejected where it was written; the
+// default up is replaced by +z where the view points up, -z where it points down.
 static void orient(struct view_camera *camera, vec3 forward, vec3 up) {
     vec3 right = vec3_cross(forward, vec3_unit(up));
     if (!(vec3_length(right) >= 1e-9))
         right = vec3_cross(forward, (vec3){0, 0, forward.y > 0 ? 1 : -1});
-    // A view along z, with an up along z that a diagnostic has refused already.
+    // A view along z, with an up along z that a diagnostic has already rejected.
     if (!(vec3_length(right) >= 1e-9))
         right = vec3_cross(forward, (vec3){0, 1, 0});
     camera->forward = forward;
@@ -28,7 +28,7 @@ static double tan_half(double degrees) {
     return degrees == 90 ? 1 : tan(degrees / 2 * RADIANS);
 }
 
-// Of a field that a perspective view can have: what is about as large as the view of another projection.
+// For a field that a perspective view can have: one that shows about as much as the other projection does.
 static double alike_tan(const struct ir_camera *ir) {
     if (ir->projection == IR_PROJECTION_PERSPECTIVE)
         return tan_half(ir->fov);
@@ -50,7 +50,7 @@ static struct view_camera turned_camera(const struct ir_camera *ir) {
         return camera;
     }
     vec3 along = ir->view == IR_VIEW_LOOK_AT ? vec3_sub(ir->look_at, ir->position) : ir->direction;
-    // A view of no direction has its diagnostic; the picture looks along -z.
+    // A view without a direction has its diagnostic; the picture looks along -z.
     orient(&camera, vec3_is_zero(along) ? (vec3){0, 0, -1} : vec3_unit(along), ir->up);
     return camera;
 }
@@ -59,7 +59,7 @@ static bool looks_all_round(const struct view_camera *camera) {
     return camera->projection == IR_PROJECTION_FISHEYE || camera->projection == IR_PROJECTION_PANORAMA;
 }
 
-// Of a body that is not there, or whose mesh is not, the position: a diagnostic says so.
+// The position, where the body is missing or its mesh is not loaded: a diagnostic says so.
 static vec3 focus_point(const struct scene *scene, const struct ir_camera *ir) {
     if (ir->focusing == IR_FOCUS_POINT)
         return ir->focus_at;
@@ -73,7 +73,7 @@ static vec3 focus_point(const struct scene *scene, const struct ir_camera *ir) {
     return ir->position;
 }
 
-// 1 where a diagnostic has refused what is written.
+// 1 where a diagnostic has rejected what is written.
 static double focus_of(const struct scene *scene, const struct ir_camera *ir,
                        const struct view_camera *camera) {
     double focus = ir->focus;
@@ -92,7 +92,7 @@ static struct view_camera written_camera(const struct scene *scene, const struct
     return camera;
 }
 
-// All bodies in view: their box's sphere touches the narrower field.
+// All bodies in view: the sphere around their box touches the narrower field.
 static struct view_camera automatic_camera(const struct scene *scene, int32_t width, int32_t height) {
     struct view_camera camera = {.name = STR("main"), .tan_half_fov = tan_half(60), .automatic = true};
     orient(&camera, (vec3){0, 0, -1}, (vec3){0, 1, 0});
@@ -126,11 +126,11 @@ static void put_extent(struct view_light *light, const struct ir_light *ir) {
     }
 }
 
-// The radiance that gives the emission on a surface that faces the light, over pi (docs/language.md, "Lights
+// The radiance that gives this emission on a surface facing the light, over pi (docs/language.md, "Lights
 // that are seen").
 void view_light_shine(struct view_light *light, vec3 place) {
     const double distance = light->inverse_square ? 1 : vec3_length(vec3_sub(light->position, place));
-    double over = 1; // solid angle over pi, at that distance; of a disc weighted by the cosine
+    double over = 1; // solid angle over pi, at that distance; for a disc weighted by the cosine
     if (light->extent == VIEW_DISC)
         over = sin(light->half_angle) * sin(light->half_angle);
     else if (light->extent == VIEW_SPHERE)
@@ -171,7 +171,7 @@ static bool is_equal(vec3 a, vec3 b) {
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-// Whether the same edges, in either order and direction, make both.
+// Whether both are made by the same edges, in either order and direction.
 static bool are_edges(const struct view_light *light, vec3 u, vec3 v) {
     const vec3 a = light->edge_u, b = light->edge_v;
     const bool is_u = is_equal(u, a) || is_equal(u, vec3_neg(a));
@@ -195,13 +195,14 @@ static bool is_surface(const struct scene_body *body, const struct view_light *l
     return false;
 }
 
-// 2^-19 of the coordinates: some ten units of the last place that single precision keeps of them.
+// 2^-19 of the coordinates: some ten units in the last place of their single precision.
 static double before_body(const struct view_light *light, vec3 origin) {
     const double reach = light->radius + vec3_max_abs(light->edge_u) + vec3_max_abs(light->edge_v);
     return 0x1p-19 * (vec3_max_abs(vec3_sub(light->position, origin)) + reach);
 }
 
-// As many lights as have a place and an extent: each, found in their order, that has the body's surface.
+// Finds each light that has the body's surface, among `count` lights with a place and an extent, sorted by
+// place.
 static void take_body(const struct scene_body *body, struct view_light **lights, uint32_t count,
                       vec3 origin) {
     struct view_light at = {.position = shape_middle(body)};
@@ -219,7 +220,7 @@ static void take_body(const struct scene_body *body, struct view_light **lights,
             lights[low]->before_body = before_body(lights[low], origin);
 }
 
-// The first camera's: flattening takes it off all places.
+// The first camera's position: flattening subtracts it from all positions.
 static vec3 origin_of(const struct scene *scene, const struct view *view) {
     return scene->ir->cameras.count ? scene->ir->cameras.items[0].position : view->camera.position;
 }
@@ -282,7 +283,7 @@ void view_sample_offset(uint32_t n, double *a, double *b) {
     const double ratio = 1.32471795724474602596; // the plastic number
     double x = 0.5 + n / ratio;
     double y = 0.5 + n / (ratio * ratio);
-    // As devices have them.
+    // Rounded to what devices store.
     *a = (double)(float)(x - floor(x));
     *b = (double)(float)(y - floor(y));
 }

@@ -12,10 +12,10 @@ struct view_camera {
     str name;
     vec3 position;           // scene units
     vec3 right, up, forward; // orthonormal
-    double tan_half_fov;     // of the vertical field; of other projections: of a field about as wide
+    double tan_half_fov;     // of the vertical field; for other projections: of a field about as wide
     bool automatic;
     unsigned projection; // ir_projection
-    double half_height;  // orthographic: of what is seen, scene units
+    double half_height;  // orthographic: of the visible part, scene units
     double half_field;   // fisheye: from the middle to the upper edge, radians
     double lens_radius;  // scene units; 0: a pinhole
     double focus;        // of a lens: where things are sharp, scene units along the view, or from the
@@ -34,26 +34,26 @@ struct view_light {
     double radius;                // of the sphere; scene units
     double half_angle;            // of the disc, radians
     vec3 edge_u, edge_v, outward; // of the panel: scene units; unit, on the side that it shines on
-    // Above 0: a body has the very surface of the sphere or the panel. Shadow rays end so far in front of it
-    // (scene units), where rounding cannot decide whether it is in their way.
+    // Above 0: a body has exactly the surface of the sphere or the panel. Shadow rays end this far in front
+    // of it (scene units), so that rounding cannot decide whether it blocks them.
     double before_body;
     bool directional;
     vec3 position; // scene units; zero where directional
     vec3 to_light; // unit; zero where positional
     vec3 emission; // intensity times colour, linear
-    bool seen;     // by rays too; a body that has the very surface is seen in its place
-    vec3 radiance; // of such a light, as seen: linear
+    bool seen;     // also seen by rays; a body that has exactly its surface is seen instead
+    vec3 radiance; // how bright a seen light looks: linear
     bool inverse_square;
     bool automatic;
     uint32_t index; // in scene.lights; IR_NO_INDEX where automatic
 };
 
-// Whether rays see the light itself; only where it has an extent, and no body its surface.
+// Whether rays see the light itself: only if it has an extent, and no body has its surface.
 static inline bool view_light_is_seen(const struct view_light *light) {
     return light->seen && light->extent != VIEW_POINT && !(light->before_body > 0);
 }
-// What such a light looks like, from its emission and its extent. One without falloff lights all distances
-// alike: it looks as bright as what lights `place` so.
+// Sets how bright such a light looks, from its emission and its extent. One without falloff lights all
+// distances alike: it looks as bright as one with falloff that lights `place` equally.
 void view_light_shine(struct view_light *light, vec3 place);
 
 struct view {
@@ -72,14 +72,14 @@ struct view_ray {
     vec3 start, direction; // scene units; unit
 };
 struct view_ray view_ray_at(const struct view_camera *camera, double aspect, double x, double y);
-// How a picture shows a point: the ray of the pinhole that comes to it, and what of the picture lies there.
+// How a picture shows a point: the pinhole's ray to it, and its place and scale in the picture.
 struct view_sight {
     vec3 direction; // unit
     double x, y;    // of the place in the picture, as above
-    // How much of space the picture's height is there, scene units: a pixel of one of `rows` rows is height /
+    // How much of space the picture's height covers there, scene units: with `rows` rows a pixel is height /
     // rows wide, as the cones of filters are (docs/language.md, "Paint").
     double height;
-    // Of small areas across the ray: one of the size a shows in a * density * rows^2 pixels.
+    // For small areas across the ray: an area a covers a * density * rows^2 pixels.
     double density;
 };
 // false: the point is not in the picture.
@@ -90,7 +90,7 @@ static inline bool view_from_one_place(const struct view_camera *camera) {
     return camera->projection != IR_PROJECTION_ORTHOGRAPHIC && !(camera->lens_radius > 0);
 }
 
-// Turns a camera, and rolls it, by a part of a pixel of a picture of some hundred lines: in a symmetric view,
+// Turns and rolls a camera by a fraction of a pixel in a picture of some hundred lines: in a symmetric view,
 // pixels lie exactly on edges and lines of a checker, where any rounding is right.
 void view_turn_aside(struct view_camera *camera);
 
@@ -98,8 +98,9 @@ void view_turn_aside(struct view_camera *camera);
 // (Roberts 2018, R2 sequence).
 void view_sample_offset(uint32_t n, double *a, double *b);
 
-// The first of the samples that are compared with those from 0 on: up to 256 from 0 and 1024 from here have
-// none in common, and none of the two lie closer together than about half of how close the sequence's own do.
+// The first of the samples that are compared with those from 0 on: up to 256 samples from 0 and 1024 from
+// here have none in common, and between the two sets no distance is below about half of the least distance
+// within the sequence.
 #define VIEW_OTHER_SAMPLES 6528
 
 #endif

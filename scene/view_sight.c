@@ -4,7 +4,7 @@
 
 #include "grammar/ir.h"
 
-// Of a point in the middle of a view to all sides, or right behind it, sine and angle are taken as this.
+// For a point at the centre of an all-round view, or right behind it, sine and angle are taken as this.
 static const double SINE_LEAST = 1e-9;
 
 static void see_ahead(const struct view_camera *c, double aspect, vec3 way, struct view_sight *out) {

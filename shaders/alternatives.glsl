@@ -1,17 +1,17 @@
-// What other tracers do, to compare with glint's own ways (docs/accuracy.md, "Alternatives"); compiled
-// only with ALTERNATIVES, never into the kernels that make pictures.
+// Methods of other tracers, to compare with glint's own (docs/accuracy.md, "Alternatives"); compiled only with
+// ALTERNATIVES, never into the kernels that make pictures.
 //
-// Offset: a ray leaves a surface from o + t d, moved along the geometric normal by a length that is chosen, and
-// a hit counts from t > 0 on. Cut: the triangle test of Moeller and Trumbore 1997, which refuses triangles of a
+// Offset: a ray leaves a surface from o + t d, moved along the geometric normal by a chosen length, and every
+// hit at t > 0 counts. Cut: the triangle test of Moeller and Trumbore 1997, which rejects triangles with a
 // small determinant.
 
 // Flat; 0: glint's own starts.
 layout(constant_id = CONSTANT_ALTERNATIVE_OFFSET) const float ALTERNATIVE_OFFSET = 0.0;
-// As a part of the ray's length.
+// As a fraction of the ray's length.
 layout(constant_id = CONSTANT_ALTERNATIVE_DISTANCE) const float ALTERNATIVE_DISTANCE = 0.0;
 // Flat, squared; 0: glint's own test.
 layout(constant_id = CONSTANT_ALTERNATIVE_CUT) const float ALTERNATIVE_CUT = 0.0;
-// 1: a hit counts from t > 0 on, from glint's own starts; tests see what that lets through.
+// 1: every hit at t > 0 counts, from glint's own starts; tests see what that lets through.
 layout(constant_id = CONSTANT_ALTERNATIVE_START) const uint ALTERNATIVE_START = 0u;
 
 bool alternative_moves() { return ALTERNATIVE_OFFSET > 0.0; }

@@ -1,9 +1,9 @@
 // Many samples of many pixels traced at once, for GPUs: path k * slots + s is sample k of slot s. A path lives in private
-// memory, the refracted rays that wait in it too, and takes a place in the state buffer only when its slice ends. Where
-// all places are taken, the path begins once more in a later dispatch.
+// memory, with its waiting refracted rays, and takes a place in the state buffer only when its slice ends. If all places
+// are taken, the path starts again in a later dispatch.
 //
-// The samples of a tile follow each other, and tiles come in an order of the host's: the last paths leave a GPU idle, so
-// that long ones are to begin first.
+// The samples of a tile follow each other, and the host chooses the order of tiles: long paths should start first,
+// because the last ones leave a GPU idle.
 
 layout(constant_id = CONSTANT_AT_ONCE) const bool AT_ONCE = false;
 layout(constant_id = CONSTANT_BRANCHES) const uint BRANCHES = 1u;
@@ -19,7 +19,8 @@ vec2 sample_offset(uint k) {
     return (k & 1u) == 0u ? both.xy : both.zw;
 }
 
-// Where the saved paths end that go on with RESUME_COUNTED. `spread`: as far apart as there are invocations for it.
+// Where the saved paths that go on with RESUME_COUNTED end. `spread`: as far apart as there are invocations for
+// them.
 uint count_saved(inout uint spread) {
     uint saved = counters[COUNTER_PENDING + dispatch.read_list] - dispatch.read_base;
     while (spread > 1u && saved > dispatch.path_end / spread)
@@ -27,7 +28,7 @@ uint count_saved(inout uint spread) {
     return min(saved, dispatch.path_end);
 }
 
-// The path that an invocation begins.
+// The path that an invocation starts.
 uint path_of(uint index, uint slots) {
     uint samples = max(dispatch.samples, 1u), block = index / TILE_PIXELS;
     return block % samples * slots + block / samples * TILE_PIXELS + index % TILE_PIXELS;
@@ -41,7 +42,7 @@ struct waiting_ray {
 };
 waiting_ray waiting[BRANCHES];
 
-// With HAS_FOOTPRINT. Not in the rays: a member that no kernel without it reads costs such a kernel 40 registers on a GPU.
+// With HAS_FOOTPRINT. Not in the struct of the rays: there it would cost kernels that never read it 40 registers on a GPU.
 const uint CONE_BRANCHES = HAS_FOOTPRINT ? BRANCHES : 1u;
 RAY_CONE waiting_cones[CONE_BRANCHES];
 
@@ -100,7 +101,7 @@ void load_waiting(uint place, uint count) {
     }
 }
 
-// A place for a path that is saved; NO_PLACE where none is left: then the path is noted to begin once more.
+// A place for a path to be saved; NO_PLACE if none is left: then the path is listed to start again.
 uint at_once_place(bool resumes, uint place, uint path) {
     if (resumes)
         return place;

@@ -1,5 +1,5 @@
-// What a ray sees that hits nothing (docs/language.md, "Background"): own bilinear weights and own angles,
-// so that devices agree.
+// What a ray that hits nothing sees (docs/language.md, "Background"): with bilinear weights and angles
+// computed here, so that devices agree.
 
 vec3 background_texel(int x, int y) {
 #ifdef WEBGPU

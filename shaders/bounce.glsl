@@ -1,8 +1,8 @@
-// Where light comes from that a surface reflects or refracts (docs/language.md, "Reflected", "Refracted").
+// Where light that a surface reflects or refracts comes from (docs/language.md, "Reflected", "Refracted").
 
 REAL3 mirrored(REAL3 d, REAL3 n) { return d - n * (2.0 * dot3(d, n)); }
 
-// What a rough surface sends to its wrong side meets another facet: that turns it back.
+// A ray that a rough surface would send to its wrong side is turned back by another facet.
 REAL3 reflected(REAL3 d, surface s) {
     REAL3 n = s.shading;
     if (HAS_ROUGHNESS)
@@ -14,7 +14,7 @@ REAL3 reflected(REAL3 d, surface s) {
     return unit3(r);
 }
 
-// Of the side that the ray comes from to the other.
+// The index on the ray's side over that on the other side.
 REAL index_ratio(surface s) {
     REAL eta = s.enters ? 1.0 / s.index : s.index;
     if (HAS_SIDES)
@@ -22,8 +22,8 @@ REAL index_ratio(surface s) {
     return eta;
 }
 
-// false: total reflection. `d` comes out unchanged, bit for bit, where nothing bends. `c`, `k`: cosine to the normal that
-// bends, and the square of that behind it.
+// false: total reflection. `t` equals `d`, bit for bit, where nothing bends. `c`, `k`: the cosine to the normal that
+// bends, and the squared cosine behind it.
 bool refracted(REAL3 d, surface s, out REAL3 t, out REAL c, out REAL k) {
     REAL eta = index_ratio(s);
     REAL3 n = s.shading;
@@ -55,7 +55,7 @@ bool refracted(REAL3 d, surface s, out REAL3 t, out REAL c, out REAL k) {
 REAL of_faces(REAL one, bool pane) { return pane ? 2.0 * one / (1.0 + one) : one; }
 
 // The share of unpolarised light that is reflected between the indices n and m (Fresnel 1823; Born and Wolf 1999, section
-// 1.5.2). `c`, `k`: as of refracted().
+// 1.5.2). `c`, `k`: as from refracted().
 float fresnel_share(REAL n, REAL m, REAL c, REAL k, bool pane) {
     REAL t = sqrt(max(k, 0.0));
     REAL across = (n * c - m * t) / (n * c + m * t), along = (m * c - n * t) / (m * c + n * t);
@@ -63,7 +63,7 @@ float fresnel_share(REAL n, REAL m, REAL c, REAL k, bool pane) {
     return float(n == m ? 0.0 : k <= 0.0 ? 1.0 : both);
 }
 
-// The cones of rays that leave a surface: its normal turns the more the wider the cone is there.
+// The cones of rays that leave a surface: the wider the cone is there, the more the normal turns across it.
 RAY_CONE mirrored_cone(surface s, RAY_CONE cone) { return REAL2(s.width, cone.y + 2.0 * s.bend * s.width); }
 
 RAY_CONE bent_cone(surface s, RAY_CONE cone, REAL3 from, REAL3 to) {
@@ -73,11 +73,11 @@ RAY_CONE bent_cone(surface s, RAY_CONE cone, REAL3 from, REAL3 to) {
     return REAL2(s.width, straight ? cone.y : eta * cone.y + along * s.bend * s.width);
 }
 
-// What leaves a surface of a ray.
+// The rays that leave a surface.
 struct scatter_rays {
     REAL3 bent;                   // direction of the refracted ray
     float reflection, refraction; // factors of the ray's throughput; 0: no such ray
-    bool total;                   // the mirrored ray has the weight of the refracted one too
+    bool total;                   // the mirrored ray also has the refracted one's weight
 };
 
 scatter_rays scatter(REAL3 direction, surface s) {

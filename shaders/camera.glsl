@@ -8,7 +8,7 @@ uvec2 morton(uint index) {
 }
 
 // Slots are numbered through the band, 64 per tile. CPU devices give each thread a contiguous range of
-// workgroups, and sky is cheaper than ground: so short runs of tiles are scattered over the picture.
+// workgroups, and sky is cheaper than ground, so short runs of tiles are scattered over the picture.
 uvec2 pixel_of_slot(uint slot) {
     uint tile = dispatch.tile_begin + slot / TILE_PIXELS;
     uint run = (tile / frame.run_tiles) * frame.run_step % frame.runs;
@@ -18,7 +18,7 @@ uvec2 pixel_of_slot(uint slot) {
 
 layout(constant_id = CONSTANT_PART) const bool IS_PART = false;
 
-// Which pixel of the whole picture one of those drawn is.
+// The pixel of the whole picture for one of those drawn.
 uvec2 pixel_of_whole(uvec2 pixel) { return IS_PART ? pixel + uvec2(frame.first_x, frame.first_y) : pixel; }
 
 // `pixel`: of the whole picture; `offset`: of the sample inside the pixel.

@@ -1,21 +1,20 @@
-// A ray traced once more where rounding leaves open what it hits: from the exact place that it leaves, by tests with
-// twice the digits. Slow, and rare: a ray that starts within its error of another triangle than the one it
-// leaves, at an edge of a body for instance, or one that hits two triangles at a distance that is the same but for
-// rounding.
+// Traces a ray again where rounding leaves open what it hits: from the exact place that it leaves, with tests that
+// have twice the digits. Slow, and rare: for a ray that starts within its error of a triangle other than the one it
+// leaves, at an edge of a body for instance, or that hits two triangles at distances that differ only by rounding.
 //
 // Boxes are those of the first search: they are wide enough for the start's error (bvh/items.c).
 
 #if !defined(DOUBLE_PRECISION) && !defined(NO_DOUBLES)
-const REAL WIDE_STEP = 3.5527136788005009e-15; // 2^-48: above the error of a place in WIDE, as a part of its coordinates
+const REAL WIDE_STEP = 3.5527136788005009e-15; // 2^-48: above the error of a place in WIDE, as a fraction of its coordinates
 #elif !defined(DOUBLE_PRECISION)
 const REAL WIDE_STEP = 9.0949470177292824e-13; // 2^-40
 #else
 const REAL WIDE_STEP = 1.262177448353619e-29lf; // 2^-96
 #endif
-const REAL WIDE_INSET = 16384.0 * WIDE_STEP; // from a triangle's edges, as a part of it
+const REAL WIDE_INSET = 16384.0 * WIDE_STEP; // from a triangle's edges, as a fraction of the triangle
 
-// Planes whose heights differ by no more than this part of their coordinates are the same but for the rounding of
-// the scene's numbers, where they are parallel too.
+// Parallel planes whose heights differ by no more than this fraction of their coordinates are the same but for
+// the rounding of the scene's numbers.
 const REAL SAME_HEIGHT = 4.0 * GAMMA_1;
 const REAL PARALLEL = 0.99993896484375; // 1 - 2^-14: cosine
 
@@ -35,11 +34,11 @@ struct exact_search {
     uint left, left_body;
     REAL3 left_normal; // 0: none
     REAL least;        // least t found
-    REAL blur;         // of the hit: what SAME_HEIGHT is along the ray
+    REAL blur;         // of the hit: SAME_HEIGHT measured along the ray
     REAL3 normal;      // of the hit
 };
 
-// The corners, the one first whose edges tell the normal best.
+// The corners, starting with the one whose edges give the most accurate normal.
 struct exact_corners {
     REAL3 p0, p1, p2;
 };
@@ -89,8 +88,8 @@ WIDE3 turned(WIDE3 v, bool along_x, bool along_z) {
     return other;
 }
 
-// On the side of the triangle to which the ray leads, by more than the error of WIDE. A ray to a target ends there,
-// exactly.
+// Starts on the side of the triangle that the ray heads to, by more than the error of WIDE. A ray to a target ends
+// exactly there.
 exact_search begin_exact(ray_start start, exact_aim aim, hit_record hit) {
     exact_search search;
     REAL3 direction = aim.direction;
@@ -124,7 +123,7 @@ exact_search begin_exact(ray_start start, exact_aim aim, hit_record hit) {
 
 bool are_parallel(REAL3 a, REAL3 b) { return abs(dot3(a, b)) > PARALLEL; }
 
-// A corner as the ray sees it: its place across the ray, which is the same for all triangles around it.
+// A corner as the ray sees it: its place across the ray, the same for all triangles around it.
 struct exact_place {
     WIDE x, y;
 };
@@ -173,8 +172,8 @@ void test_exact(uint item, bool there, inout exact_search search, inout hit_reco
     search.least = is_hit ? min(search.least, t) : search.least;
 }
 
-// Where the first search would take the hit too: with its numbers, so that a picture does not show whether a tree led to
-// a second one.
+// If the first search would take the hit too: uses its numbers, so that a picture does not show whether a tree led to a
+// second search.
 void first_numbers(ray_start start, REAL3 direction, inout hit_record hit) {
     if (hit.item == NO_ITEM || (hit.item & ITEM_SPHERE) != 0u)
         return;
@@ -190,9 +189,9 @@ void first_numbers(ray_start start, REAL3 direction, inout hit_record hit) {
     }
 }
 
-// On which side of a triangle, by the order of its corners, a ray leads: 1 or -1; 0 where rounding leaves it open. Of the
-// corners' differences, which are exact but for one rounding, the product is off by less than 2^-17 of its factors, and
-// the direction to a target by the start's error.
+// The side of a triangle, by the order of its corners, that a ray heads to: 1 or -1; 0 where rounding leaves it open. The
+// corners' differences are exact but for one rounding, so their product is off by less than 2^-17 of its factors; the
+// direction to a target is off by the start's error.
 REAL facing(triangle_record triangle, REAL3 direction, REAL slack) {
     REAL3 u = triangle.v1 - triangle.v0, v = triangle.v2 - triangle.v0;
     REAL f = dot3(cross3(u, v), direction);
@@ -207,20 +206,20 @@ bool has_edge(triangle_record triangle, REAL3 from, REAL3 to) {
            (triangle.v2 == from && triangle.v0 == to);
 }
 
-// Whether the ray passes beside a triangle for certain. Two triangles with an edge in common lie on two sides of it, as seen
-// along a direction, where that points to the same side of both; and the ray starts within one of them.
+// Whether the ray certainly passes beside a triangle. Seen along a direction that points to the same side of two triangles,
+// these lie on opposite sides of a common edge; and the ray starts within one of them.
 bool passes_beside(uint item, ray_start start, REAL3 direction) {
     if (start.left == NO_ITEM)
         return false;
     triangle_record a = load_triangle(start.left), b = load_triangle(item);
-    // Bodies are wound one way mostly: their edges run back and forth.
+    // Bodies are usually wound one way: their edges run back and forth.
     bool back = has_edge(a, b.v1, b.v0) || has_edge(a, b.v2, b.v1) || has_edge(a, b.v0, b.v2);
     bool forth = has_edge(a, b.v0, b.v1) || has_edge(a, b.v1, b.v2) || has_edge(a, b.v2, b.v0);
     REAL same = facing(a, direction, start.slack) * facing(b, direction, start.slack);
     return back != forth && (back ? same > 0.0 : same < 0.0);
 }
 
-// Takes out of the doubts those triangles. true: none is left.
+// Removes such triangles from the doubts. true: none is left.
 bool settle(ray_start start, REAL3 direction, inout ray_doubts doubts) {
     if (doubts.near_a != NO_ITEM && passes_beside(doubts.near_a, start, direction))
         doubts.near_a = NO_ITEM;
@@ -235,8 +234,8 @@ bool is_hit_exactly(uint item, exact_search search, hit_record hit) {
     return hit.item == item;
 }
 
-// Whether a search of all triangles is needed. Most rays have doubts only of triangles around their start, and hit none of
-// those: then what the first search has found is what this one would find.
+// Whether a search of all triangles is needed. Most rays have doubts only about triangles around their start, and hit none
+// of them: then this search would find the same as the first one.
 bool needs_search(exact_search search, ray_doubts doubts, hit_record hit) {
     bool needed = doubts.all;
     if (!needed && doubts.near_a != NO_ITEM)
@@ -246,9 +245,8 @@ bool needs_search(exact_search search, ray_doubts doubts, hit_record hit) {
     return needed;
 }
 
-// As trace_triangles, with `hit` as it was before that. false: what that has found stands. It does, too, where the search
-// is given up at EXACT_ITERATIONS, which a ray reaches where a scene is so far away that most of it is the same but
-// for rounding.
+// As trace_triangles, with `hit` as it was before that. false: its result stands. So it does if the search is given up at
+// EXACT_ITERATIONS, which a ray reaches where a scene is so far away that most of it is the same but for rounding.
 bool retrace_triangles(ray_start start, exact_aim aim, ray_doubts doubts, bool any, inout hit_record hit,
                        inout uint iterations) {
     if (settle(start, aim.direction, doubts))

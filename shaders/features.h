@@ -8,7 +8,7 @@
 #ifndef GLINT_SHADERS_FEATURES_H
 #define GLINT_SHADERS_FEATURES_H
 
-/* ROW(its macro less FEATURE_, what people call it) */
+/* ROW(its macro without FEATURE_, its name for users) */
 #define FEATURE_TABLE(ROW)                                                                                   \
     ROW(TRIANGLES, triangles)                                                                                \
     ROW(SPHERES, spheres)                                                                                    \
@@ -71,7 +71,7 @@
 #define FEATURE_SLICES           FEATURE_FIRST(14) /* paths may be saved and resumed in a later dispatch */
 #define FEATURE_COUNTERS         FEATURE_FIRST(15) /* count rays for --stats */
 #define FEATURE_LONG_RAYS        FEATURE_FIRST(16) /* a ray may be saved and resumed in the middle of a tree */
-#define FEATURE_MANY_LIGHTS      FEATURE_FIRST(17) /* the sum over the lights keeps what rounding drops */
+#define FEATURE_MANY_LIGHTS      FEATURE_FIRST(17) /* the sum over lights keeps what rounding drops */
 #define FEATURE_MEDIA            FEATURE_FIRST(18) /* rays know the bodies that they are inside */
 #define FEATURE_ATTENUATION      FEATURE_FIRST(19) /* of light on its way inside */
 #define FEATURE_FRESNEL          FEATURE_FIRST(20)
@@ -87,12 +87,12 @@
 #define FEATURE_TEXTURES         FEATURE_FIRST(30) /* images on surfaces */
 #define FEATURE_SKY_LIGHT        FEATURE_FIRST(31) /* the background lights */
 #define FEATURE_SEEN_LIGHT       FEATURE_SECOND(0) /* lights that rays see */
-/* With any of them something is sampled that has extent: rays have keys (light/points.h). */
+/* With any of them something with extent is sampled: rays have keys (light/points.h). */
 #define FEATURE_POINTS                                                                                       \
     (FEATURE_SOFT_LIGHT | FEATURE_OCCLUSION | FEATURE_ROUGHNESS | FEATURE_CAMERA | FEATURE_SKY_LIGHT)
 #ifdef __STDC_VERSION__
 #define FEATURE_ALL (UINT64_MAX >> (64 - FEATURE_COUNT))
-/* What only a scene can switch on; the others are the renderer's. */
+/* Features that only a scene can switch on; the renderer sets the others. */
 #define FEATURE_SCENE_MASK                                                                                   \
     (FEATURE_ALL &                                                                                           \
      ~(FEATURE_SLICES | FEATURE_COUNTERS | FEATURE_LONG_RAYS | FEATURE_MANY_LIGHTS | FEATURE_BEGINS))

@@ -1,14 +1,15 @@
-// Follows a path, where a ray that rounding leaves open is decided after the inner loop: on lavapipe, which runs 8 invocations as a
-// vector in which an `if` never skips, and only the end of a loop does.
+// Follows a path, deciding rays that rounding leaves open after the inner loop: for lavapipe, which runs 8 invocations as a vector
+// in which an `if` never skips code, only the end of a loop does.
 
-// Until the path ends, or its slice does. A kernel in which paths begin (BEGINS) saves the path before a ray that is open.
+// Until the path ends, or its slice does. A kernel in which paths begin (BEGINS) saves the path before it decides an open
+// ray.
 uint follow(uint slot, inout path_state p, inout uint fault) {
     uint iterations = 0u, state = GOES_ON, phase = p.hit.item == NO_ITEM ? PHASE_RAY : PHASE_HIT;
     bool fresh = true, decided = false; // no ray was finished in this slice; the ray is
     surface s;
     ray_start start = exact_start(REAL3(0.0)); // of shadow rays
     light_ray shadow = light_ray(vec3(0.0), start.at, 0.0, start.at);
-    hit_record held = p.hit, rough = p.hit; // UNDECIDED: the spheres' hit, and the first search's; decided: the ray's
+    hit_record held = p.hit, rough = p.hit; // UNDECIDED: the spheres' hit, and the first search's; decided: the ray's hit
     do {
         ray_doubts doubts = no_doubts();
         do {

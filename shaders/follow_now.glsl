@@ -1,7 +1,7 @@
-// Follows a path, where a ray that rounding leaves open is decided within the inner loop: on a GPU, whose lanes would otherwise wait
-// for all others.
+// Follows a path, deciding rays that rounding leaves open within the inner loop: for a GPU, whose lanes would otherwise wait for all
+// others.
 
-// Decides at once: GOES_ON with what the ray hits, or SUSPENDED. `sphere`: what it hits without triangles.
+// Decides at once: GOES_ON with the ray's hit, or SUSPENDED. `sphere`: the hit without triangles.
 uint decide_here(path_state p, bool own, ray_start start, light_ray shadow, ray_doubts doubts, hit_record sphere,
                  bool fresh, inout hit_record hit, inout uint iterations) {
     uint state = room_for_exact(fresh, iterations);
@@ -10,7 +10,8 @@ uint decide_here(path_state p, bool own, ray_start start, light_ray shadow, ray_
     return state == SUSPENDED ? SUSPENDED : GOES_ON;
 }
 
-// Until the path ends, or its slice does. A kernel in which paths begin (BEGINS) saves the path before a ray that is open.
+// Until the path ends, or its slice does. A kernel in which paths begin (BEGINS) saves the path before it decides an open
+// ray.
 uint follow(uint slot, inout path_state p, inout uint fault) {
     uint iterations = 0u, state = GOES_ON, phase = p.hit.item == NO_ITEM ? PHASE_RAY : PHASE_HIT;
     bool fresh = true; // no ray was finished in this slice

@@ -22,12 +22,12 @@
 #define BINDING_COUNTERS       11
 #define BINDING_FRAME          12 /* uniform buffer: camera and frame parameters */
 #define BINDING_INSTANCES      13 /* where the scene has any */
-/* Of samples traced at once. */
+/* For samples traced at once. */
 #define BINDING_SAMPLES 14 /* uniform buffer: their offsets in a pixel */
-#define BINDING_PICTURE 15 /* three floats a pixel, by rows: the sums of its samples, or NaN */
-#define BINDING_SUMS    16 /* as OUTPUT, a word a slot: of the samples before */
+#define BINDING_PICTURE 15 /* three floats per pixel, by rows: sums of its samples, or NaN */
+#define BINDING_SUMS    16 /* as OUTPUT, a word per slot: of the samples before */
 #define BINDING_ORDER   17 /* tiles in the order of their slots: x + (y << 16) */
-/* Where materials have images, or checkers that are filtered. */
+/* If materials have images or filtered checkers. */
 #define BINDING_PAINTS 18
 
 /* Node of the 8-wide compressed tree (Ylitie, Karras, Laine 2017, section 4.1):
@@ -54,12 +54,12 @@
 #define TRIANGLE_SMOOTH       0x01000000u
 #define TRIANGLE_SOLID        0x02000000u /* body is closed: refraction enters and leaves; else a thin pane */
 #define TRIANGLE_HALF         0x04000000u /* half of a parallelogram */
-#define TRIANGLE_SECOND_HALF  0x08000000u /* and its second: corner, corner + u + v, corner + v */
+#define TRIANGLE_SECOND_HALF  0x08000000u /* the second half: corner, corner + u + v, corner + v */
 #define TRIANGLE_CHECKER      0x10000000u
 #define TRIANGLE_TURNED       0x20000000u /* v1 and v2 are exchanged against the file's order */
-#define TRIANGLE_CORNER_SHIFT 30          /* the corner, 0..2, whose edges tell the normal best */
+#define TRIANGLE_CORNER_SHIFT 30          /* the corner, 0..2, whose edges give the best normal */
 #define TRIANGLE_MATERIAL     0x00ffffffu
-/* What the box of a triangle is wider by, as a part of its largest coordinate; in double precision 2^-47. */
+/* How much wider a triangle's box is, as a fraction of its largest coordinate; in double precision 2^-47. */
 #define TRIANGLE_BOX_PAD 3.814697265625e-6 /* 2^-18 */
 /* How much shorter the edges of another corner than the first must be, as a product of both, to be preferred.
  */
@@ -70,32 +70,32 @@
    Rows of a body are those of the affine map from flat space to the coordinates of its checker; of a
    parallelogram the first one alone, with the lengths of its edges in scene units. Zero where unused. */
 
-/* Where models share a mesh (kernels compiled with INSTANCES), the triangle tree has two levels. Nodes below
-   frame.top_nodes are the upper one, in flat space: its leaves are nodes too, of an instance each, in which
-   byte 0 of the exponents is 0, which no other node has, the first child is the root of the instance's tree
-   and the first item the instance; kernels read only these two. In the other nodes of the upper tree, which
-   have no items, the first item is a mask: the slots whose children are leaves. Below a root all is in the
-   space of that tree, which keeps its coordinates
-   below 2. TRIANGLES holds PLACED records, NORMALS doubles. All triangles that are not shared are instance 0,
-   which changes nothing. An item that is hit is the place of its record plus first_item of its instance: such
-   numbers rise with the instances, and each begins a new block of 2^frame.instance_shift of them. INSTANCES
-   holds a record for each, ENTRY and INSTANCE one after the other; from frame.instance_table on, the instance
-   of each block, four to a word; then the shades (material and flags) of groups. */
+/* If models share a mesh (kernels compiled with INSTANCES), the triangle tree has two levels. Nodes below
+   frame.top_nodes are the upper level, in flat space. Its leaves are nodes too, one per instance, with 0 in
+   byte 0 of the exponents, as in no other node; the first child is the root of the instance's tree and the
+   first item the instance; kernels read only these two. The other nodes of the upper tree have no items:
+   their first item is a mask of the slots whose children are leaves. Below a root everything is in the space
+   of that tree, which keeps its coordinates below 2. TRIANGLES holds PLACED records, NORMALS doubles. All
+   triangles that are not shared are instance 0, which changes nothing. A hit item is the place of its record
+   plus first_item of its instance: such numbers rise with the instances, and each instance begins a new block
+   of 2^frame.instance_shift numbers. INSTANCES holds a record for each, ENTRY and INSTANCE one after the
+   other; from frame.instance_table on, the instance of each block, four to a word; then the shades (material
+   and flags) of groups. */
 #define INSTANCE_MIRRORED 1u /* the second and third corner are exchanged */
 #define INSTANCE_COPIED   2u /* instance 0: records have bodies and shades of their own */
 
-/* Images: PAINTS begins with two records for each material, of its diffuse and its specular colour. After
-   them lie, in any order, what records name by the number of its word: for each image a word a level, of its
-   first texel (counted in texels from the array's begin), width, height and the kind of its texels, row 0 on
-   top, from the finest level on; for images of bytes that are sRGB a word for each of 256 values, decoded;
-   for each mesh with coordinates COORDINATE_WORDS a triangle (u, v of each corner, in the order of the mesh,
-   as floats, or as doubles in COORDINATE64_WORDS); and, from frame.coordinates_table on, four to a word, the
-   first of those words for each body: it is even, plus 1 where the body's second and third corners are
-   exchanged against the mesh's; 0: it has none. Word numbers have 32 bits: 64 GiB, of which a quarter can be
-   texels of bytes. */
+/* Images: PAINTS begins with two records for each material, for its diffuse and its specular colour. After
+   them lie, in any order, the data to which records refer by word number: for each image one word per level,
+   with its first texel (counted in texels from the array's begin), width, height and the kind of its texels,
+   row 0 on top, from the finest level on; for sRGB images of bytes one word for each of 256 values, decoded;
+   for each mesh with coordinates COORDINATE_WORDS per triangle (u, v of each corner, in the order of the
+   mesh, as floats, or as doubles in COORDINATE64_WORDS); and, from frame.coordinates_table on, four to a
+   word, the first of those words for each body: it is even, plus 1 if the body's second and third corners are
+   exchanged relative to the mesh's; 0: it has none. Word numbers have 32 bits: 64 GiB, of which a quarter can
+   be texels of bytes. */
 #define COORDINATE_WORDS   2
 #define COORDINATE64_WORDS 3
-/* Kinds of texels: a word has two to the power of these. */
+/* Kinds of texels: a word holds 2^kind texels. */
 #define TEXELS_FLOATS 0u /* three floats */
 #define TEXELS_PACKED 1u /* three values of 21 bits, r in the lowest bits: scene/textures.c */
 #define TEXELS_BYTES  2u /* three bytes, r in the lowest */
@@ -110,7 +110,7 @@
    of the body, from 1 on, in place of the material's. */
 #define MEDIUM_BITS     21
 #define MEDIUM_MASK     ((1u << MEDIUM_BITS) - 1u)
-#define MEDIUM_PRIORITY 1001 /* what is added to priorities */
+#define MEDIUM_PRIORITY 1001 /* added to priorities */
 #define MEDIA_MOST      8
 
 /* The place of a light is its position, or a unit vector to it; emission over inverse square is already times
@@ -123,11 +123,11 @@
 /* A background that lights: where a sample looks (scene/sky.h), four numbers to a word of LIGHTS, from the
    frame's sky_table on. */
 
-/* A scene in double precision: nodes as above; the other records lie as records.h says. Boxes hold the
-   doubles, rounded outward. A kernel subtracts in double precision the t at which a ray enters a node from
-   all t of it; what is left is rounded to single precision, with errors below 2^-13 of a cell of the node,
-   and child boxes are widened by 2^-12 (bvh/encode.c). BOX_SLACK times the subtracted t covers the rounding
-   of t itself and of a watertight hit, 64 units of 2^-53. */
+/* A scene in double precision: nodes as above; the other records are laid out as records.h says. Boxes hold
+   the doubles, rounded outward. A kernel subtracts in double precision the t at which a ray enters a node
+   from every t in it; the difference is rounded to single precision, with errors below 2^-13 of a cell of the
+   node, and child boxes are widened by 2^-12 (bvh/encode.c). BOX_SLACK times the subtracted t covers the
+   rounding of t itself and of a watertight hit, 64 units of 2^-53. */
 #define BOX_SLACK 7.105427357601002e-15 /* 2^-47 */
 
 #endif

@@ -1,4 +1,4 @@
-// What every pixel's first ray hits (scene/hits.h), with the camera, trees, surfaces and lights of the tracer.
+// What every pixel's first ray hits (scene/hits.h), found with the tracer's camera, trees, surfaces and lights.
 //
 // A dispatch traces one kind of ray (hits.h). Later kinds make the surface again from the hit that the first one
 // left in OUTPUT.
@@ -61,7 +61,7 @@ hits_ray shadow_ray(surface s, hit_record hit, REAL3 direction, uint light) {
     return hits_ray(start, aim_at(light, shadow), shadow.t_max, true, sent);
 }
 
-// Whether anything of a light comes to a surface through what refracts.
+// Whether any of a light's light reaches a surface through refracting bodies.
 bool shines_to(hits_ray ray, uint light, media_set inside, inout bool ended) {
     light_ray shadow = light_ray(vec3(1.0), ray.aim.direction, ray.end, ray.aim.target);
     return shine_all(ray.start, light, shadow, inside, ended) != vec3(0.0);
@@ -130,7 +130,7 @@ void main() {
     hit_record hit = hit_record(ray.end, 0.0, 0.0, NO_ITEM, 0u);
     uint iterations = 0u;
     bool ended = true;
-    // Without shadows the tracer sends no shadow ray, and the light always counts.
+    // With shadows off the tracer sends no shadow ray, and the light always counts.
     if (kind >= HITS_LIGHTS && shines())
         hit.item = shines_to(ray, kind - HITS_LIGHTS, inside, ended) ? NO_ITEM : 0u;
     else if (kind < HITS_LIGHTS || (HAS_SHADOWS && wants(FEATURE_SHADOWS)))

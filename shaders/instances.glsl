@@ -1,9 +1,9 @@
 // Models that share a mesh: a tree of instances over trees of meshes (gpu_scene.h).
 //
 // A triangle is placed where flattening would have placed it, by the same operations in double precision and one
-// rounding, so that a picture has the same bytes as one of copies. Only boxes know the mesh's own space: a ray is
-// taken there, with its t, and boxes are as much wider as flattened ones would be and as the ray may be off
-// (docs/decisions/instances.md).
+// rounding, so a picture has the same bytes as with copies. Only boxes are in the mesh's own space: a ray is
+// transformed to it, keeping its t, and boxes are widened as flattened ones would be, plus the ray's possible
+// error (docs/decisions/instances.md).
 #ifdef INSTANCES
 #define MEMBER_DOUBLE(name, word, half64)  double name;
 #define MEMBER_WHOLE(name, word, component) uint name;
@@ -41,7 +41,7 @@ uint instance_table(uint index) {
     return k == 0u ? word.x : k == 1u ? word.y : k == 2u ? word.z : word.w;
 }
 
-// Whose triangles this invocation loads: only what a test needs stays in registers.
+// The instance whose triangles this invocation loads: only what a test needs stays in registers.
 uint seen_instance = 0u;
 instance_record seen;
 
@@ -78,7 +78,7 @@ uint seen_shade(uint group) {
     return (seen.flags & INSTANCE_COPIED) != 0u ? group : instance_table(seen.shades + group);
 }
 
-// An item of the instance that is seen.
+// An item of the current instance.
 triangle_record load_tested(uint item) {
     placed_record mesh = load_placed(item - seen.first_item);
     bool mirrored = (seen.flags & INSTANCE_MIRRORED) != 0u;
@@ -112,7 +112,7 @@ dvec3 turned_normal(dvec3 n, instance_record by) {
     return size > 0.0lf ? dvec3(v.x / size, v.y / size, v.z / size) : v;
 }
 
-// `index`: three to a triangle, from a multiple of three on.
+// `index`: three per triangle, starting at a multiple of three.
 REAL3 load_normal(body_record body, uint index) {
     instance_record by = load_instance(body.instance);
     uint corner = index % 3u;
@@ -126,9 +126,9 @@ REAL3 load_normal(body_record body, uint index) {
 
 // ---- whether a triangle near its start concerns a ray
 
-// A search of flattened triangles sees those whose boxes it hits. Here other boxes are met, so that the same question is
-// asked of each triangle by itself: where it is only the rounding of the ray's start that a triangle is about, the
-// answer must not depend on how its box lies.
+// A search of flattened triangles sees those whose boxes it hits. Here the boxes are others, so each triangle is asked
+// the same question by itself: if a triangle matters only because of the rounding of the ray's start, the answer must
+// not depend on where its box lies.
 #ifdef DOUBLE_PRECISION
 #define MEETS_BOX(triangle, ray) true
 #else
@@ -144,8 +144,8 @@ bool meets_box(triangle_record triangle, vec3 origin, vec3 inverse) {
 
 // ---- the two levels of a search
 
-// The ray in the space of an instance's tree, with the same t. Where rounding leaves its start open, with what lies
-// behind it as far as a triangle may reach.
+// The ray in the space of an instance's tree, with the same t. Where rounding leaves its start open, it also covers
+// what lies behind the start, as far as a triangle may reach.
 tree_ray entered_ray(uint instance, REAL3 origin, REAL3 direction, bool is_open) {
     entry_record e = load_entry(instance);
     REAL3 place = REAL3(dot3(e.row_x, origin) + e.offset_x, dot3(e.row_y, origin) + e.offset_y,
@@ -162,16 +162,16 @@ tree_ray entered_ray(uint instance, REAL3 origin, REAL3 direction, bool is_open)
     return ray;
 }
 
-// Takes the next node out of the group, as next_node does. `enters`: it is a leaf of the upper tree.
+// Removes the next node from the group, as next_node does. `enters`: it is a leaf of the upper tree.
 uint next_entry(inout uvec2 group, uint flip, out bool enters) {
     uint slot = ((floatBitsToUint(float(int(group.y >> 24u))) >> 23u) - 127u) ^ flip;
     enters = has_nodes(group) && (group.y & (0x100u << (slot & 7u))) != 0u;
     return next_node(group, flip);
 }
 
-// A search has two rays: `ray` goes through the nodes, `flat_ray` is it again where an instance is left. The next node,
-// `node_at`, is known before the turn that opens it: a leaf of the upper tree is not opened but entered. lavapipe runs what
-// an `if` holds for all lanes, and would transform a ray at every node: there lanes that found one wait outside of a
+// A search has two rays: `ray` goes through the nodes, `flat_ray` replaces it when an instance is left. The next node,
+// `node_at`, is known before the iteration that opens it: a leaf of the upper tree is not opened but entered. lavapipe runs
+// the body of an `if` for all lanes, and would transform a ray at every node: there lanes that found a leaf wait outside a
 // loop of their own.
 #ifdef LONG_RAYS_KEPT
 #define INSTANCE_RESUME(ray, start, direction, group)                                                       \
@@ -230,7 +230,7 @@ uint next_entry(inout uvec2 group, uint flip, out bool enters) {
         ray = flat_ray;                                                                                      \
     group_before = group;                                                                                    \
     node_at = next_entry(group, ray.flip, enters);
-// An item of the node that is open.
+// An item of the open node.
 #define INSTANCE_ITEM(item) (item + seen.first_item)
 #else
 #define MEETS_BOX(triangle, ray) true

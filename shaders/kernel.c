@@ -22,7 +22,7 @@ static const struct kernel_bytes *group_of(const struct kernel *kernel, size_t i
     return &kernel->groups[kernel->group[index]];
 }
 
-// Inflates to `*at`, and moves that to the end.
+// Inflates to `*at`, and moves it to the end of the output.
 static bool inflate_parts(const struct kernel_bytes *bytes, unsigned char **at,
                           struct packed_bytes parts[PACKED_PARTS]) {
     uLongf size = size_of(bytes);
@@ -37,7 +37,7 @@ static bool inflate_parts(const struct kernel_bytes *bytes, unsigned char **at,
     return result == Z_OK && size == wanted;
 }
 
-// The functions of a group, after those that are there.
+// Adds a group's functions after the existing ones.
 static bool add_functions(struct packed_bytes parts[PACKED_PARTS], struct packed_function **functions,
                           size_t *count, uint32_t *capacity) {
     struct packed_bytes *sizes = &parts[PACKED_SIZES];
@@ -66,7 +66,7 @@ static bool unpack_functions(struct unpacking *to, const struct packed_function 
     return whole;
 }
 
-// Into `words`, from the bytes inflated into `bytes`.
+// Unpacks into `words`, from the bytes inflated into `bytes`.
 static bool unpack(const struct kernel *kernel, unsigned char *bytes, uint32_t *words, uint32_t *ids) {
     struct unpacking to = {
         .words = words, .count = kernel->packed_words, .local = ids, .outer = ids + kernel->packed_words};

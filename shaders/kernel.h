@@ -1,5 +1,5 @@
-// A compiled kernel as a program holds it: a SPIR-V module, packed and deflated, with what it shares with
-// other kernels held once (docs/decisions/deflated-kernels.md).
+// A compiled kernel as a program holds it: a SPIR-V module, packed and deflated; what it shares with other
+// kernels is held once (docs/decisions/deflated-kernels.md).
 //
 // Errors: NULL. Ownership: kernel_inflate's memory is the caller's, to be freed by `free`. Thread safety:
 // pure.
@@ -19,8 +19,8 @@ struct kernel_bytes {
 
 struct kernel {
     struct kernel_bytes own;
-    const struct kernel_bytes *groups; // of functions, of all kernels
-    const uint16_t *group;             // those that this one has, `group_count` of them
+    const struct kernel_bytes *groups; // of functions, for all kernels
+    const uint16_t *group;             // this kernel's groups, `group_count` of them
     size_t group_count;
     size_t packed_words; // of the module before its operations are decorated
     size_t words;        // of the module

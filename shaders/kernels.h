@@ -25,7 +25,7 @@ KERNEL(log_instances)
 KERNEL(trace64_instances)
 KERNEL(hits64_instances)
 KERNEL(log64_instances)
-// By other tracers' ways (alternatives.glsl).
+// With the methods of other tracers (alternatives.glsl).
 KERNEL(trace_alternative)
 KERNEL(hits_alternative)
 KERNEL(log_alternative)

@@ -67,7 +67,7 @@ light_ray lamp_at(uint index, surface s, REAL3 start, REAL3 direction, uint key)
     return ray;
 }
 
-// `key`: of the ray that hit the surface; `index`: below light_end().
+// `key`: the key of the ray that hit the surface; `index`: below light_end().
 light_ray light_at(uint index, surface s, REAL3 start, REAL3 direction, uint key) {
     light_ray ray;
     if (HAS_OCCLUSION && index >= frame.light_count && !is_sky(index))
@@ -77,7 +77,7 @@ light_ray light_at(uint index, surface s, REAL3 start, REAL3 direction, uint key
     return ray;
 }
 
-// Adds to the sum over a surface's lights. Of many lights `low` keeps what rounding dropped before (Kahan 1965, "Further
+// Adds to the sum over a surface's lights. With many lights `low` keeps what rounding has dropped (Kahan 1965, "Further
 // Remarks on Reducing Truncation Errors"): a sum of thousands of floats would be wrong in the fourth digit.
 void add_light(vec3 value, inout vec3 sum, inout vec3 low) {
     vec3 added = HAS_MANY_LIGHTS ? value - low : value;

@@ -1,5 +1,5 @@
-// What single rays hit and where they go on, reported in full, with the code of the tracer: the host walks one
-// sample's path with it, ray by ray (tracer/render/render_log.c).
+// What single rays hit and where they go on, reported in full, with the tracer's own code: the host uses it to
+// follow one sample's path, ray by ray (tracer/render/render_log.c).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -91,7 +91,7 @@ void write_ray(uint at, ray_start start, REAL3 direction, RAY_CONE cone) {
     pixels[at + 4u] = uvec4(bits_of(start.b1), bits_of(start.b2));
 }
 
-// What is left of light on the way to what the ray hits.
+// The light left on the way to what the ray hits.
 void write_way(uint at, log_ray ray, REAL way) {
     vec3 left = vec3(1.0);
     if (HAS_ATTENUATION && wants(FEATURE_ATTENUATION))
@@ -134,7 +134,7 @@ void add_to_log(uint at, vec3 value) {
     pixels[at + 9u] = uvec4(low_z.xy, bits.z, low_z.w);
 }
 
-// What a ray comes to that is not a shadow ray; a blind one was not traced, and sees the background.
+// What a ray other than a shadow ray hits; a blind ray was not traced, and sees the background.
 void write_hit(uint at, log_ray ray, hit_record hit, bool blind, bool ended) {
     seen_light seen = no_light(blind ? -FAR_AWAY : hit.t);
     if (HAS_SEEN_LIGHT)

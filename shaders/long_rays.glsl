@@ -1,6 +1,6 @@
-// Rays that need more iterations than a slice has: where thousands of bodies contain each other, a ray visits
-// all of their boxes. Such a ray is saved in the middle of a tree, with the groups that wait, and goes on in the
-// next slice. Compiled in only where a scene was seen to have one (tracer/render/render_frame.c).
+// Rays that need more iterations than a slice has: if thousands of bodies contain each other, a ray visits all
+// of their boxes. Such a ray is saved in the middle of a tree, with the groups that wait, and goes on in the
+// next slice. Compiled in only after a scene was found to have one (tracer/render/render_frame.c).
 
 const bool HAS_LONG_RAYS = (FEATURES & FEATURE_LONG_RAYS) != 0u;
 
@@ -23,15 +23,15 @@ const uint LONG_STACK_WORD = LONG_RAY_WORDS;
 const uint LONG_LEVELS = TRIANGLE_STACK > SPHERE_STACK ? TRIANGLE_STACK : SPHERE_STACK;
 const uint LONG_WORDS = HAS_LONG_RAYS ? LONG_STACK_WORD + (LONG_LEVELS + 1u) / 2u : 0u;
 
-// Of this invocation: the tree in which its ray stopped in the slice before, until it goes on there; and the one
-// in which it has stopped now.
+// This invocation's: the tree in which its ray stopped in the previous slice, until it resumes there; and the
+// tree in which it has stopped now.
 uint long_slot = 0u, long_tree = TREE_NONE, long_stopped = TREE_NONE;
-bool long_resumes = false; // the ray that is traced is the one that stopped
+bool long_resumes = false; // the current ray is the one that stopped
 uvec2 long_group = uvec2(0u);
 uint long_size = 0u;
 #ifdef INSTANCES
 #define LONG_RAYS_KEPT
-uint long_instance = 0u; // of the group, where it lies below one
+uint long_instance = 0u; // of the group, if it lies below an instance
 #else
 const uint long_instance = 0u;
 #endif
@@ -49,7 +49,7 @@ void put_long_entry(uint level, uvec2 entry) {
     states[at] = (level & 1u) == 0u ? uvec4(entry, both.zw) : uvec4(both.xy, entry);
 }
 
-// A slice ends at a node: what one node has fits between the two limits.
+// A slice ends at a node: the work of one node fits between the two limits.
 uint long_limit() { return min(frame.slice_iterations, SLICE_ITERATIONS); }
 #define TRAVERSAL_LIMIT (HAS_LONG_RAYS ? long_limit() : ITERATION_LIMIT)
 
@@ -70,7 +70,7 @@ uint long_limit() { return min(frame.slice_iterations, SLICE_ITERATIONS); }
             put_long_entry(i, STACK_GET(i));                                                                 \
         STACK_KEEP_SIZE                                                                                      \
     }
-// Of the search that stopped (triangles.glsl).
+// State of the search that stopped (triangles.glsl).
 REAL long_wrong = 0.0, long_doubt = 0.0;
 #define LONG_TAKE(wrong, doubt)                                                                              \
     if (HAS_LONG_RAYS && long_resumes && long_tree == TREE_TRIANGLES) {                                      \

@@ -38,7 +38,8 @@ REAL3 cross3(REAL3 a, REAL3 b) {
 
 REAL3 unit3(REAL3 v) { return v * (1.0 / sqrt(dot3(v, v))); }
 
-// The larger and the smaller number, where none may be NaN: lavapipe's own take three instructions, for NaN.
+// The larger and the smaller number, where neither may be NaN: lavapipe's own take three instructions,
+// because of NaN.
 #ifdef FETCH_TEXELS
 float LARGER(float a, float b) { return a > b ? a : b; }
 float SMALLER(float a, float b) { return a < b ? a : b; }
@@ -53,7 +54,7 @@ double SMALLER(double a, double b) { return a < b ? a : b; }
 
 REAL largest3(REAL3 v) { return max(v.x, max(v.y, v.z)); }
 
-// Bits, because a compiler may take NaN and infinity for absent.
+// By bits, because a compiler may assume that NaN and infinity do not occur.
 bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
 bool is_finite3(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
 
@@ -66,8 +67,8 @@ double inverse_power(double x) {
 float inverse_power(float x) { return uintBitsToFloat(0x7f000000u - (floatBitsToUint(x) & 0x7f800000u)); }
 #endif
 
-// The number next to `x` away from zero's side that `outward` points to: up where positive, down where
-// negative, `x` itself where zero.
+// The number next to `x` in the direction of `outward`: up where it is positive, down where negative, `x`
+// itself where zero.
 #ifdef DOUBLE_PRECISION
 double next_real(double x, double outward) {
     uvec2 bits = unpackDouble2x32(x);
@@ -87,7 +88,7 @@ float next_real(float x, float outward) {
 }
 #endif
 
-// arctan for |x| <= tan(pi/8): own minimax fit of degree 5 in x^2, relative error 6.3e-10.
+// arctan for |x| <= tan(pi/8): a minimax fit of degree 5 in x^2, relative error 6.3e-10.
 float arctan_small(float x) {
     float z = x * x;
     float p = -0.060263052378973 * z + 0.105698288108559;
@@ -113,7 +114,8 @@ float arctan2(float y, float x) {
 }
 
 #ifdef DOUBLE_PRECISION
-// arctan for |x| <= tan(pi/8), as twice that of half the angle, by Gregory's series: what is cut off is below 2e-17.
+// arctan for |x| <= tan(pi/8), as twice that of half the angle, by Gregory's series: the truncation error is below
+// 2e-17.
 double arctan_small(double x) {
     double half_angle = x / (1.0 + sqrt(1.0 + x * x)), z = half_angle * half_angle, sum = 0.0;
     for (int k = 21; k > 0; k -= 2)
@@ -136,9 +138,9 @@ double arctan2(double y, double x) {
 }
 #endif
 
-// max(0, cosine)^exponent, where cosine = 1 - loss: by loss, since 1 - loss has no digits left where large
-// exponents need them; 0^0 = 1. ln(1 - x) = -2 artanh(x/(2 - x)), by an own minimax fit of degree 4 in the
-// square of the argument up to 1/3, relative error 4.1e-9.
+// max(0, cosine)^exponent, where cosine = 1 - loss: computed from loss, since 1 - loss lacks the digits that
+// large exponents need; 0^0 = 1. ln(1 - x) = -2 artanh(x/(2 - x)), by a minimax fit of degree 4 in the square
+// of the argument up to 1/3, relative error 4.1e-9.
 float highlight(float loss, float exponent) {
     float s = loss / (2.0 - loss);
     float z = s * s;

@@ -8,7 +8,7 @@ media_set camera_media() {
                      uvec4(frame.inside_4, frame.inside_5, frame.inside_6, frame.inside_7));
 }
 
-// The entry that fills the place: of highest priority, the last one entered among equals. 0: air.
+// The entry that fills the place: the highest priority, among equals the last one entered. 0: air.
 uint more_filling(uint first, uint next) { return (next >> MEDIUM_BITS) > (first >> MEDIUM_BITS) ? next : first; }
 uint filling(media_set set) {
     uint best = more_filling(more_filling(set.a.x, set.a.y), more_filling(set.a.z, set.a.w));
@@ -17,7 +17,7 @@ uint filling(media_set set) {
 
 bool is_among(media_set set, uint entry) { return any(equal(set.a, uvec4(entry))) || any(equal(set.b, uvec4(entry))); }
 
-// From the entry on, each takes the place of the one before.
+// From `entry` on, each entry is replaced by the next one.
 media_set without(media_set set, uint entry) {
     bvec4 a = equal(set.a, uvec4(entry)), b = equal(set.b, uvec4(entry));
     a.y = a.x || a.y;
@@ -42,7 +42,7 @@ uint medium_of(uint entry) {
     return number;
 }
 
-// The index on one side of a surface; a body's own faces tell that of the body.
+// The index on one side of a surface; a body's own faces give the body's index.
 REAL medium_index(uint entry, uint medium, uint own, REAL own_index) {
     REAL index = 1.0;
     if (medium != 0u)
@@ -50,7 +50,7 @@ REAL medium_index(uint entry, uint medium, uint own, REAL own_index) {
     return index;
 }
 
-// Where no two media have a place in common, the side of the surface tells all.
+// If no two media can share a point, the side of the surface decides everything.
 void cross_alone(inout surface s) {
     bool leaves = s.solid && s.refraction > 0.0 && !s.enters;
     s.index_before = leaves ? s.index : 1.0;
@@ -59,8 +59,8 @@ void cross_alone(inout surface s) {
     s.is_over = false;
 }
 
-// Which media are on both sides of a surface that a ray from inside `before` meets. `before` is corrected where the side
-// of a sphere says so: a mesh may have walls turned either way, so there only the set counts.
+// Finds the media on both sides of a surface hit by a ray from inside `before`. `before` is corrected if the side of a
+// sphere contradicts it; a mesh may have walls turned either way, so there only the set counts.
 void cross_media(inout media_set before, hit_record hit, inout surface s) {
     uint word = load_body(s.body).medium;
     uint own = (word & ~MEDIUM_MASK) | (s.body + 1u);
@@ -98,14 +98,14 @@ void cross_surface(inout media_set before, hit_record hit, inout surface s) {
         cross_media(before, hit, s);
 }
 
-// A ray that goes on behind a surface that nobody sees is still the same ray.
+// A ray that continues behind a surface that nobody sees is still the same ray.
 void count_unseen(surface s) {
     if (HAS_COUNTERS && HAS_MEDIA)
         counted_unseen += s.passes ? 1u : 0u;
 }
 
-// exp(-x) for x >= 0: the series of what is left below a power of two, relative error 1e-7. Vulkan's own may differ from
-// device to device.
+// exp(-x) for x >= 0: a power of two times the series of the remainder, relative error 1e-7. Vulkan's own may differ
+// from device to device.
 float fading(float x) {
     float n = floor(x * 1.44269504 + 0.5);
     float r = (x - n * 0.693359375) + n * 2.12194440e-4;
@@ -119,7 +119,7 @@ float fading(float x) {
     return x < 86.0 ? p * uintBitsToFloat((127u - uint(n)) << 23u) : 0.0;
 }
 
-// What is left of light after a way inside.
+// The share of light left after a way inside.
 vec3 media_left(media_set set, REAL way) {
     uint medium = medium_of(filling(set));
     vec3 left = vec3(1.0);
@@ -130,7 +130,7 @@ vec3 media_left(media_set set, REAL way) {
     return left;
 }
 
-// What is left of light from a lamp that nothing blocks: of a way inside the medium that the surface is lit in.
+// The share of light left from a lamp that nothing blocks: after the way in the medium that the surface is lit in.
 vec3 arriving_left(media_set inside, light_ray ray) {
     vec3 left = vec3(1.0);
     if (HAS_ATTENUATION && wants(FEATURE_ATTENUATION) && ray.t_max < FAR_AWAY)
@@ -138,10 +138,10 @@ vec3 arriving_left(media_set inside, light_ray ray) {
     return left;
 }
 
-// ---- light that shines through what refracts: a shadow ray goes straight on behind each surface that it hits, and keeps a
-// part of its light (docs/language.md, "Shadows of glass")
+// ---- light that shines through refracting bodies: a shadow ray goes straight on behind each surface that it hits, and
+// keeps a share of its light (docs/language.md, "Shadows of glass")
 
-const uint SHINE_RAYS = 500u; // to one light, where nothing else ends them
+const uint SHINE_RAYS = 500u; // to one light, if nothing else ends them
 
 struct shining {
     bool goes_on; // a surface was met: `start` is behind it
@@ -154,8 +154,8 @@ shining shine_from(ray_start start, media_set inside) { return shining(false, st
 
 bool shines() { return HAS_CLEAR_SHADOWS && wants(FEATURE_CLEAR_SHADOWS); }
 
-// What a surface lets through. By the angle on the thinner side, whichever the ray comes from: as of light that was bent
-// on its way in.
+// The share that a surface lets through. By the angle on the thinner side, whichever side the ray comes from: as for
+// light that was bent on its way in.
 float shine_share(surface s, REAL3 direction) {
     float share = s.refraction;
     if (HAS_FRESNEL) {
@@ -176,7 +176,7 @@ REAL3 shine_direction(shining way, light_record light, light_ray ray) {
     return ray.t_max < FAR_AWAY ? place - way.start.at : ray.direction;
 }
 
-// A shadow ray has hit a surface, or came to the light. true: it goes on behind the surface.
+// A shadow ray has hit a surface, or reached the light. true: it continues behind the surface.
 bool shine_on(inout shining way, hit_record hit, light_ray ray) {
     bool arrived = hit.item == NO_ITEM, is_point = ray.t_max < FAR_AWAY;
     REAL size = sqrt(dot3(ray.direction, ray.direction));

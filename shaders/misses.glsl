@@ -1,10 +1,11 @@
-// Whether a ray certainly passes a triangle by, in single precision: most of those that a kernel in double precision
-// meets. What is left is tested as ever, so that hits do not know of this. docs/decisions/precision.md has the proof.
+// Whether a ray certainly misses a triangle, in single precision: it misses most of those that a kernel in double
+// precision meets. The rest are tested as usual, so this never changes a hit. docs/decisions/precision.md has the
+// proof.
 
-// In units of 2^-24: the error of a corner across the ray, as a part of its place relative to the start and of the
-// start's coordinates; and more than what is lost below the normal floats.
+// In units of 2^-24: the error of a corner across the ray, as a fraction of its place relative to the start and of
+// the start's coordinates; and more than what is lost below the smallest normal float.
 #ifndef OUTLINE_SHARE
-#define OUTLINE_SHARE 1.0 // of the margins; less than 1 to see what they are worth
+#define OUTLINE_SHARE 1.0 // of the margins; less than 1 to see how much they matter
 #endif
 const float OUTLINE_STEPS = OUTLINE_SHARE * 7.1525574e-7;  // 12
 const float OUTLINE_NEAR = OUTLINE_SHARE * 5.9604645e-7;   // 10
@@ -13,7 +14,7 @@ const float OUTLINE_LEAST = OUTLINE_SHARE * 7.5231638e-37; // 2^-120
 struct outline_ray {
     vec3 origin;
     float sx, sy;
-    float near; // bound of what cutting off the numbers and the start's error move a corner by, across the ray
+    float near; // bound on how far the truncated numbers and the start's error move a corner, across the ray
 };
 
 outline_ray make_outline_ray(triangle_search search) {
@@ -42,6 +43,6 @@ bool misses(uint item, outline_ray outline, shear_ray ray) {
     float wrong_y = OUTLINE_STEPS * (y_most + z_most) + outline.near;
     float margin = 2.0 * (wrong_x * (y_most + wrong_y) + wrong_y * x_most) + OUTLINE_STEPS * (x_most * y_most) +
                    OUTLINE_LEAST;
-    // false where a number is infinite or none.
+    // false if a number is infinite or NaN.
     return max(max(u, v), w) > margin && min(min(u, v), w) < -margin;
 }

@@ -8,14 +8,14 @@ struct path_state {
     ray_start start;
     REAL3 direction;
     RAY_CONE cone;    // with HAS_FOOTPRINT
-    float throughput; // share of what the ray sees that the sample gets
+    float throughput; // how much of what the ray sees the sample gets
     uint depth; // max_depth + 1: only sees the background
     uint kind;
-    vec3 radiance; // of what is done
+    vec3 radiance; // sum so far
     uint segments; // rays traced
     hit_record hit; // NO_ITEM: the ray is still to be traced; else its lights from `light` on
     uint light;
-    vec3 light_sum; // over the lights before
+    vec3 light_sum; // over the lights before `light`
     vec3 light_low; // with HAS_MANY_LIGHTS: what rounding dropped of it
     uint stack_size;
     media_set inside; // with HAS_MEDIA
@@ -49,7 +49,7 @@ path_state begin_path(camera_ray ray) {
     return p;
 }
 
-// What a path adds to its pixel: `value` as attenuation leaves it.
+// What a path adds to its pixel: `value` times what attenuation leaves of it.
 vec3 tinted(path_state p, vec3 value) {
     vec3 result = value * p.throughput;
     if (HAS_ATTENUATION)
@@ -57,7 +57,7 @@ vec3 tinted(path_state p, vec3 value) {
     return result;
 }
 
-// The greatest part that a channel of its light has in the pixel.
+// The largest share that a channel of its light has in the pixel.
 float greatest_part(path_state p, float throughput) {
     float greatest = throughput;
     if (HAS_ATTENUATION)

@@ -1,13 +1,13 @@
-// How a path is kept from one dispatch to the next, and the refracted rays that wait in it.
+// How a path, with its waiting refracted rays, is stored between dispatches.
 
 const uint NO_PLACE = 0xffffffffu;
 const uint BRANCHES_WORD = PATH_WORDS + LONG_WORDS; // the first of those rays
 
 // Words are ordered by kind first, then by place, so that neighbours are adjacent. A place is a slot, unless samples are
-// traced at once (at_once.glsl): then only paths that are saved have one.
+// traced at once (at_once.glsl): then only saved paths have a place.
 uint state_word(uint place, uint word) { return word * dispatch.places + place; }
 
-// ---- what a path is inside, and that of the refracted rays that wait
+// ---- what a path is inside, and what its waiting refracted rays are inside
 
 const uint MEDIA_WORD = LOW_WORD + (HAS_MANY_LIGHTS ? 1u : 0u);
 const uint SHINE_WORD = MEDIA_WORD + (HAS_MEDIA ? MEDIA_WORDS : 0u);
@@ -66,7 +66,7 @@ void get_path_media(uint slot, inout path_state p) {
         p.shine = get_shine(slot);
 }
 
-// ---- the key of its points, and those of the refracted rays that wait
+// ---- the key of its points, and those of its waiting refracted rays
 
 void put_key(uint slot, uint word, uint key) {
     if (HAS_POINTS)
@@ -234,7 +234,7 @@ void get_branch(uint slot, uint word, inout path_state p) {
 }
 #endif
 
-// The ray that stopped in the middle of a tree, and what it has hit until then.
+// The ray that stopped in the middle of a tree, and what it has hit so far.
 void put_long_ray(hit_record hit) {
     states[long_word(0u)] = uvec4(long_stopped | long_instance << 2u, long_group, hit.number);
     states[long_word(1u)] = uvec4(bits_of(hit.t), bits_of(hit.b1));
@@ -263,15 +263,15 @@ hit_record long_hit() {
 #ifndef FETCH_TEXELS
 #include "at_once.glsl"
 #else
-// lavapipe writes and reads an indexed private array for all lanes, and a storage buffer only for those that want it: the
-// refracted rays that wait are always in this buffer.
+// lavapipe accesses an indexed private array for all lanes, but a storage buffer only for active ones: waiting refracted
+// rays are always in this buffer.
 const bool AT_ONCE = false;
 uint at_once_place(bool resumes, uint place, uint path) { return place; }
 void save_waiting(uint place, uint count) {}
 void load_waiting(uint place, uint count) {}
 #endif
 
-// Saves a path; `place` is its own where it was saved before. false: there was no place, and it begins once more.
+// Saves a path; `place` is its own if it was saved before. false: there was no place, and the path starts again.
 bool save_path(bool resumes, uint place, uint path, path_state p) {
     if (AT_ONCE)
         place = at_once_place(resumes, place, path);
@@ -286,8 +286,8 @@ bool save_path(bool resumes, uint place, uint path, path_state p) {
         states[state_word(place, LOW_WORD)] = uvec4(floatBitsToUint(p.light_low), 0u);
     if (HAS_LONG_RAYS && long_stopped == TREE_NONE)
         states[long_word(0u)] = uvec4(long_tree | long_instance << 2u, long_group, states[long_word(0u)].w);
-    // Each saved path has an entry in the list that the next dispatch reads. Their order may differ from
-    // run to run; the picture does not know it.
+    // Each saved path has an entry in the list that the next dispatch reads. Their order may differ from run
+    // to run; the picture does not depend on it.
     uint list = 1u - dispatch.read_list;
     uint entry = atomicAdd(counters[COUNTER_PENDING + list], 1u) - dispatch.pending_base;
     counters[COUNTER_COUNT + list * dispatch.places + entry] = place;

@@ -1,8 +1,8 @@
-// Where a ray starts that leaves a surface, so that it does not hit that surface again.
+// Where a ray that leaves a surface starts, so that it does not hit that surface again.
 
 // For rays that leave on the side of `side` (unit): the point is displaced by its error, then by one number
-// outward (Pharr, Jakob, Humphreys 2023, section 6.8.6). Not only by the error along the normal: the
-// error along the surface can carry the point across an edge, where a neighbour bends away from it.
+// outward (Pharr, Jakob, Humphreys 2023, section 6.8.6). The error along the normal is not enough: the error
+// along the surface can carry the point across an edge, where a neighbour bends away.
 REAL3 ray_offset(REAL3 point, REAL3 error, REAL3 side) {
 #ifdef ALTERNATIVES
     if (alternative_moves())
@@ -15,7 +15,7 @@ REAL3 ray_offset(REAL3 point, REAL3 error, REAL3 side) {
 }
 
 // The start of a ray that leaves the surface of a hit on the side of `side`. A ray that leaves a sphere starts exactly
-// where it is moved to; one that leaves a triangle on it, and is moved only for the first tests.
+// at the moved point; one that leaves a triangle starts on the triangle, and is moved only for the first tests.
 ray_start leave(surface s, hit_record hit, REAL3 side) {
     REAL3 at = ray_offset(s.point, s.error, side);
 #ifdef ALTERNATIVES
@@ -24,6 +24,6 @@ ray_start leave(surface s, hit_record hit, REAL3 side) {
 #endif
     if (!HAS_TRIANGLES || (HAS_SPHERES && (hit.item & ITEM_SPHERE) != 0u))
         return exact_start(at);
-    // The error, the move of at most sqrt(3) times as much, and the rounding of both.
+    // The error, the displacement of at most sqrt(3) times that, and the rounding of both.
     return ray_start(at, 4.25 * largest3(s.error), hit.item, hit.b1, hit.b2);
 }

@@ -17,7 +17,7 @@ dvec3 double3_of(uvec4 a, uvec2 b) {
     record.name = double3_of(FETCH(SOURCE, at + word64), FETCH(SOURCE, at + word64 + 1u).xy);
 #define LOAD_REAL(name, word, component, word64, half64)                                                     \
     record.name = packDouble2x32(FETCH(SOURCE, at + word64).half64);
-// A double from the float that it begins with and its last bits: of the float as a double those are 0.
+// A double from its leading float and its last bits: for a float converted to double those are 0.
 double split_double(float first, uint rest) {
     return packDouble2x32(unpackDouble2x32(double(first)) | uvec2(rest, 0u));
 }

@@ -67,10 +67,10 @@
     DOUBLE(v2_y, 3, zw)                                                                                      \
     DOUBLE(v2_z, 4, xy)                                                                                      \
     UINT(number, 4, z) /* within its body */                                                                 \
-    UINT(shade, 4, w)  /* of a mesh that is shared: the group */                                             \
+    UINT(shade, 4, w)  /* for a shared mesh: the group */                                                    \
     UINT(body, 5, x)
 
-/* How a ray comes into the space of an instance's tree, and how much wider boxes are there. */
+/* How a ray is transformed to the space of an instance's tree, and how much wider boxes are there. */
 #define ENTRY_WORDS   4
 #define ENTRY64_WORDS 8
 #define ENTRY_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                       \
@@ -80,10 +80,10 @@
     REAL(offset_y, 1, w, 3, zw)                                                                              \
     REAL3(row_z, 2, 4)                                                                                       \
     REAL(offset_z, 2, w, 5, zw)                                                                              \
-    REAL(reach, 3, x, 6, xy)  /* flat: what the boxes of flattened triangles are wider by */                 \
-    REAL(unit, 3, y, 6, zw)   /* error of the map, as a part of the ray's largest coordinate */              \
-    REAL(margin, 3, z, 7, xy) /* and whatever the ray, in the tree's space */                                \
-    REAL(edge, 3, w, 7, zw)   /* flat: none of the mesh is longer */
+    REAL(reach, 3, x, 6, xy)  /* flat: how much wider the boxes of flattened triangles are */                \
+    REAL(unit, 3, y, 6, zw)   /* error of the map, as a fraction of the ray's largest coordinate */          \
+    REAL(margin, 3, z, 7, xy) /* for any ray, in the tree's space */                                         \
+    REAL(edge, 3, w, 7, zw)   /* flat: no edge of the mesh is longer */
 
 /* How the triangles of a mesh and their normals become those of a body: as PLACED, after the words of ENTRY.
  */
@@ -101,7 +101,7 @@
     DOUBLE(z_y, 4, zw)                                                                                       \
     DOUBLE(z_z, 5, xy)                                                                                       \
     DOUBLE(z_offset, 5, zw)                                                                                  \
-    UINT(first_item, 6, x) /* what a place in TRIANGLES becomes an item by, modulo 2^32 */                   \
+    UINT(first_item, 6, x) /* added to a place in TRIANGLES to get an item, modulo 2^32 */                   \
     UINT(first_number, 6, y)                                                                                 \
     UINT(flags, 6, z)                                                                                        \
     UINT(body, 6, w)                                                                                         \
@@ -114,7 +114,7 @@
     DOUBLE(turn_z_x, 10, xy)                                                                                 \
     DOUBLE(turn_z_y, 10, zw)                                                                                 \
     DOUBLE(turn_z_z, 11, xy)                                                                                 \
-    UINT(shades, 11, z) /* where those of its groups begin, counted in components */
+    UINT(shades, 11, z) /* where its groups' shades begin, counted in components */
 
 #define SPHERE_WORDS   2
 #define SPHERE64_WORDS 3
@@ -133,9 +133,9 @@
 #define BODY_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                        \
     UINT(first_triangle, 0, x, 0, x)                                                                         \
     UINT(normal_base, 0, y, 0, y)                                                                            \
-    UINT(instance, 0, z, 0, z) /* whose mesh the normals are of; 0: they are the body's own */               \
+    UINT(instance, 0, z, 0, z) /* whose mesh has the normals; 0: they are the body's own */                  \
     UINT(medium, 0, w, 0, w)   /* as MEDIUM_BITS says; 0: it is none */                                      \
-    REAL3(row_x, 1, 1)         /* of a parallelogram: the lengths of its edges */                            \
+    REAL3(row_x, 1, 1)         /* for a parallelogram: the lengths of its edges */                           \
     REAL(offset_x, 1, w, 2, zw)                                                                              \
     REAL3(row_y, 2, 3)                                                                                       \
     REAL(offset_y, 2, w, 4, zw)                                                                              \
@@ -155,20 +155,19 @@
     REAL(refractive_index, 2, w, 4, xy)                                                                      \
     FLOAT3(diffuse_odd, 3, 3) /* colour of the checker's odd cells */                                        \
     REAL(cell, 3, w, 4, zw)   /* 1: no checker */                                                            \
-    FLOAT3(absorption, 4, 5)  /* per flat unit: exp(-absorption * way) is left of light */                   \
+    FLOAT3(absorption, 4, 5)  /* per flat unit: exp(-absorption * way) of light is left */                   \
     UINT(fresnel, 4, w, 5, w)                                                                                \
     FLOAT3(emission, 5, 6)                                                                                   \
     FLOAT(alpha, 5, w, 6, w) /* of a rough surface */
 
-/* How a material shows an image; the rows take the coordinates of a surface (u, v, 1) to those of the image.
- */
+/* How a material shows an image; the rows map a surface's coordinates (u, v, 1) to the image's. */
 #define PAINT_WORDS   3
 #define PAINT64_WORDS 5
 #define PAINT_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                       \
     UINT(levels, 0, x, 0, x) /* the word of the first; 0: no image */                                        \
     UINT(level_count, 0, y, 0, y)                                                                            \
     UINT(flags, 0, z, 0, z)                                                                                  \
-    UINT(table, 0, w, 0, w) /* of decoded values; 0: values are as they are */                               \
+    UINT(table, 0, w, 0, w) /* of decoded values; 0: values are used as they are */                          \
     REAL3(row_u, 1, 1)                                                                                       \
     REAL3(row_v, 2, 3)
 
@@ -189,7 +188,7 @@
     REAL3(edge_v, 1, 2)                                                                                      \
     REAL(gap, 1, w, 3, zw)         /* of a disc: 1 - cosine of its half angle */                             \
     REAL3(outward, 2, 4)           /* of a panel: unit */                                                    \
-    REAL(before_body, 2, w, 5, zw) /* of a sphere that a body has too: how far from it shadow rays end */
+    REAL(before_body, 2, w, 5, zw) /* for a sphere that is also a body's: how far from it shadow rays end */
 
 /* A light that rays see, from the frame's seen_table on. */
 #define SEEN_WORDS   5

@@ -1,5 +1,5 @@
-// From samples that were traced at once to a picture: their sum, in the order of the samples, by rows of pixels; and how
-// many pixels have faults. The same numbers, bit for bit, as where each sample is added to those before it.
+// Makes a picture from samples traced at once: their sum, in the order of the samples, by rows of pixels; and the number
+// of pixels with faults. The numbers are the same, bit for bit, as when each sample is added to those before it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

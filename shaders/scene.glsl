@@ -1,10 +1,10 @@
-// What each kernel begins with: bindings, specialization constants and the one door to the scene's words.
+// What each kernel begins with: bindings, specialization constants and the only access to the scene's words.
 //
-// WORDS are texel buffers on CPU devices (lavapipe loads a texel in one piece, but a storage buffer lane
-// by lane) and storage buffers on GPUs; in a page they are parts of one. FETCH hides which.
+// WORDS are texel buffers on CPU devices (lavapipe loads a texel in one piece, but a storage buffer lane by
+// lane) and storage buffers on GPUs; on web pages they are parts of one buffer. FETCH hides which.
 #extension GL_EXT_spirv_intrinsics : require
-// SignedZeroInfNanPreserve, or a compiler may take NaN for absent; stripped where a device lacks it;
-// tools/spirv_exact asks for it of doubles too.
+// SignedZeroInfNanPreserve, else a compiler may assume that NaN does not occur; stripped if a device lacks
+// it; tools/spirv_exact requests it for doubles too.
 spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 32);
 
 #include "features.h"
@@ -73,9 +73,9 @@ layout(set = 0, binding = BINDING_WORDS, std430) readonly restrict buffer word_b
 #define FETCH(name, index) name[index]
 #endif
 
-// A loop that often has nothing to do. lavapipe leaves a loop only at the end of its body: it runs that of a `while`
-// once more with all lanes off. There the body asks first whether it is wanted, and the loop ends at its condition;
-// what an unwanted body fetches may lie outside a buffer, which reads as some number (tracer/gpu/gpu_device.c).
+// A loop that often has nothing to do. lavapipe leaves a loop only at the end of its body: it runs the body of a
+// `while` once more with all lanes off. So there the body first tests whether it is wanted, and the loop ends at its
+// condition; an unwanted body may fetch from outside a buffer, which reads as some number (tracer/gpu/gpu_device.c).
 #ifdef FETCH_TEXELS
 #define WHILE(condition)     do {
 #define END_WHILE(condition) } while (condition);
@@ -134,9 +134,9 @@ layout(push_constant) uniform dispatch_block {
 } dispatch;
 #endif
 
-// The z of every dispatch's workgroups, which no compiler knows. lavapipe compiles a kernel anew for each
-// value of a uniform that alone decides a branch or a loop's end: such conditions are mixed with this.
+// The z of every dispatch's workgroups, which no compiler knows. lavapipe recompiles a kernel for each value
+// of a uniform that alone decides a branch or a loop's end: such conditions are mixed with this.
 #define OPAQUE_ZERO gl_WorkGroupID.z
 
-// Whether the scene asks for what the kernel can do: a general kernel serves scenes that need less.
+// Whether the scene needs a feature of the kernel: a general kernel serves scenes that need less.
 bool wants(uint feature) { return (frame.features & feature) > OPAQUE_ZERO; }

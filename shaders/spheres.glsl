@@ -1,4 +1,4 @@
-// Closest and any sphere along a ray; a tree of its own, compiled in only where a scene has spheres.
+// Finds the closest or any sphere along a ray; a tree of its own, compiled in only if a scene has spheres.
 //
 // Haines, Guenther, Akenine-Moeller 2019, "Precision Improvements for Ray/Sphere Intersection" (Ray Tracing
 // Gems, chapter 7), with the start of the ray placed by its error: where |o - c|^2 - r^2 is within its

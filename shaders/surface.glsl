@@ -21,13 +21,13 @@ struct surface {
     bool has_diffuse, has_specular;
     float reflection, refraction;
     REAL index;
-    REAL bend;  // with HAS_FOOTPRINT: how fast the normal turns along it, positive where it bulges to the viewer
+    REAL bend;  // with HAS_FOOTPRINT: how fast the normal turns along the surface, positive where it bulges to the viewer
     REAL width; // and how wide the ray's cone is
     bool fresnel;
     float alpha; // with HAS_ROUGHNESS; 0: smooth
-    REAL3 micro; // the normal that reflects and refracts then (light/rough.glsl)
+    REAL3 micro; // the normal that then reflects and refracts (light/rough.glsl)
     uint body;
-    // Of a ray that comes from a place inside certain media (media.glsl).
+    // For a ray that comes from a place inside certain media (media.glsl).
     REAL index_before, index_after;
     media_set after; // what it is inside once it is through
     bool passes;     // it goes on unseen: nothing changes here
@@ -136,7 +136,7 @@ void triangle_surface(hit_record hit, REAL3 direction, inout surface s) {
     s.point = q0 + q1 + q2;
     s.error = (abs(q0) + abs(q1) + abs(q2)) * GAMMA_7;
 #ifndef DOUBLE_PRECISION
-    // A triangle that reaches much farther than its point is from the camera.
+    // A triangle that is much larger than its point's distance from the camera.
     bool is_coarse = largest3(s.error) > 1.5 * GAMMA_7 * largest3(abs(s.point));
     vec3 spread = abs(q0) + abs(q1) + abs(q2);
     s.point = is_coarse ? narrow3(exact_point(triangle, hit.b1, hit.b2)) : s.point;
@@ -173,7 +173,7 @@ void triangle_surface(hit_record hit, REAL3 direction, inout surface s) {
 
 void sphere_surface(hit_record hit, REAL3 origin, REAL3 direction, inout surface s) {
     sphere_record sphere = load_sphere(hit.item & ~ITEM_SPHERE);
-    // Back onto the sphere: the point's error is then that of the radius, whatever the ray's length.
+    // Moves the point back onto the sphere: its error is then the radius's, whatever the ray's length.
     REAL3 outward = unit3(origin + direction * hit.t - sphere.center);
     REAL3 arm = outward * sphere.radius;
     s.point = sphere.center + arm;

@@ -2,7 +2,7 @@
 //
 // One loop, with one ray per iteration: the path's own ray, or a shadow ray of the last hit (follow_now.glsl, and
 // follow_later.glsl for lavapipe). Lanes whose chain of reflections has ended wait after the inner loop, where the
-// background is looked up once for all, and then take up the refracted rays that wait on the stack.
+// background is looked up once for all, and then continue with the refracted rays on the stack.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -33,12 +33,12 @@
 
 layout(local_size_x = TILE_PIXELS, local_size_x_id = CONSTANT_WORKGROUP) in;
 
-// What an iteration of the inner loop costs besides what its loops count themselves: a turn of each loop.
+// The cost of an inner-loop iteration besides what its loops count themselves: one turn of each loop.
 const uint SEGMENT_ITERATIONS = 9u + PAINT_ITERATIONS;
 
 uint segment_iterations() { return SEGMENT_ITERATIONS + (HAS_SEEN_LIGHT ? 2u * frame.seen_count : 0u); }
 
-// And looking for a light, of which the background needs two searches.
+// And of looking for a light; the background needs two searches.
 const uint SKY_ITERATIONS = 33u;
 
 const uint PHASE_RAY = 0u;    // the path's ray must be traced
@@ -50,10 +50,10 @@ const uint MISSED = 1u;    // the chain ends at the background
 const uint ENDED = 2u;     // the chain ends at a surface
 const uint SUSPENDED = 3u; // to be saved
 const uint STOPPED = 4u;   // a fault
-const uint UNDECIDED = 5u; // the ray must be traced once more, exactly
+const uint UNDECIDED = 5u; // the ray must be traced again, exactly
 
-// What this invocation counted, with HAS_COUNTERS, until it ends: the device's counters, for which all wait, would
-// cost as much as the rays. The host knows how many rays the camera sends.
+// What this invocation counts, with HAS_COUNTERS, until it ends: updating the device's shared counters for each
+// ray would cost as much as the rays. The host knows how many rays the camera sends.
 struct ray_counts {
     uint reflected, refracted, shadow, total_reflections;
     uint cut_by_depth, cut_by_weight, deepest;
@@ -105,15 +105,15 @@ void count_cut(bool by_depth, bool by_weight, float throughput) {
     counted.lost_by_weight = by_weight ? max(counted.lost_by_weight, throughput) : counted.lost_by_weight;
 }
 
-// A surface or a ray with a value that is infinite or no number: whatever came of it could look like any other
-// pixel, so the sample becomes a fault.
+// A surface or a ray has an infinite or NaN value: its result could look like any other pixel, so the sample
+// becomes a fault.
 void taint(inout path_state p, bool exists, REAL3 v, float throughput) {
     // The sum of finite parts of unit vectors is finite.
     bool sound = is_finite(float(v.x + v.y + v.z) + throughput);
     p.radiance = exists && !sound ? vec3(uintBitsToFloat(0x7fc00000u)) : p.radiance;
 }
 
-// Whether a child ray of this throughput is followed; one cut by depth is, to see the background.
+// Whether a child ray of this throughput is followed; one cut by depth is, but only sees the background.
 bool is_followed(path_state p, float throughput) {
     throughput = greatest_part(p, throughput);
     bool heavy = throughput > 0.0 && throughput >= frame.min_weight;
@@ -183,7 +183,7 @@ uint after_ray(inout path_state p, uint iterations, inout bool fresh, inout uint
     return p.segments > frame.path_segments ? STOPPED : GOES_ON;
 }
 
-// From light `p.light` on, the next one that would add something; adds those that need no shadow ray.
+// From light `p.light` on, finds the next one that would add something; adds those that need no shadow ray.
 bool find_light(inout path_state p, surface s, ray_start start, inout light_ray shadow, inout uint iterations) {
     uint count = light_end() + OPAQUE_ZERO;
     bool found = false;
@@ -208,7 +208,7 @@ uint take_hit(inout path_state p, hit_record hit) {
     return hit.item == NO_ITEM ? MISSED : GOES_ON;
 }
 
-// A light that is nearer than what the path's own ray hit. A ray that was not traced sees none.
+// A light nearer than the hit of the path's own ray. A ray that was not traced sees none.
 uint take_seen(inout path_state p, REAL t_max, uint state) {
     seen_light seen = no_light(t_max);
     see_lights(p.start.at, p.direction, seen);
@@ -222,7 +222,7 @@ uint take_seen(inout path_state p, REAL t_max, uint state) {
     return found ? ENDED : state;
 }
 
-// What a shadow ray hit. Nothing lets the light through, unless what refracts does.
+// What a shadow ray hit. A hit blocks the light, unless light shines through refracting bodies.
 void take_light(inout path_state p, ray_start start, hit_record hit, light_ray shadow) {
     bool arrives = hit.item == NO_ITEM, goes_on = false;
     vec3 value = shadow.value;
@@ -241,7 +241,7 @@ void take_light(inout path_state p, ray_start start, hit_record hit, light_ray s
     p.light += goes_on ? 0u : 1u;
 }
 
-// All lights of a surface are in: on with the rays that it sends.
+// All lights of a surface are summed: continue with the rays that it sends.
 uint leave_surface(uint slot, inout path_state p, surface s, ray_start start) {
     ray_start start_through = leave(s, p.hit, -s.geometric);
     p.radiance += tinted(p, p.light_sum);
@@ -249,10 +249,10 @@ uint leave_surface(uint slot, inout path_state p, surface s, ray_start start) {
     return send_rays(slot, p, s, start, start_through) ? GOES_ON : ENDED;
 }
 
-// Whether a slice has no more room for a ray.
+// Whether a slice has no room for another ray.
 bool is_late(bool fresh, uint iterations) {
     bool late = !fresh && iterations > frame.slice_iterations;
-    // Looking for a light may have taken what the first ray was to have.
+    // Looking for a light may have used the first ray's iterations.
     return late || (HAS_LONG_RAYS && iterations > SLICE_ITERATIONS);
 }
 
@@ -262,8 +262,8 @@ uint room_for_exact(bool fresh, uint iterations) {
     return room ? UNDECIDED : HAS_SLICES && !fresh ? SUSPENDED : GOES_ON;
 }
 
-// Both trees. A ray that stopped in the slice before goes on where it did; one may stop again: long_stopped. true:
-// rounding leaves open what is hit; `sphere` is what is known of it without triangles.
+// Searches both trees. A ray that stopped in the previous slice resumes there; it may stop again: long_stopped.
+// true: rounding leaves open what is hit; `sphere` is the hit without triangles.
 bool trace_ray(ray_start start, REAL3 direction, bool traced, bool any, inout hit_record hit, inout hit_record sphere,
                inout ray_doubts doubts, inout uint iterations) {
     bool before_triangles = true, open = false;
@@ -286,7 +286,7 @@ bool trace_ray(ray_start start, REAL3 direction, bool traced, bool any, inout hi
     return open;
 }
 
-// The path's own ray or a shadow ray, once more. `hit`: what it hits without triangles, then with them.
+// Traces the path's own ray or a shadow ray again. `hit`: what it hits without triangles, then with them.
 bool decide_exactly(path_state p, bool own, ray_start shadow_start, light_ray shadow, ray_doubts doubts,
                     inout hit_record hit, inout uint iterations) {
     ray_start start = shadow_start;
@@ -298,7 +298,7 @@ bool decide_exactly(path_state p, bool own, ray_start shadow_start, light_ray sh
     return retrace_triangles(start, aim, doubts, !own && !shines(), hit, iterations);
 }
 
-// From a surface: to its next light, or on with the path.
+// From a surface: to its next light, or on along the path.
 uint go_on(uint slot, inout path_state p, surface s, ray_start start, inout uint phase, inout light_ray shadow,
            inout uint iterations, inout uint fault) {
     uint state = GOES_ON;
@@ -325,7 +325,7 @@ ray_start ray_from(path_state p, bool own, ray_start start) {
     return start;
 }
 
-// The media on both sides of a surface that the path's ray came to, and what is left of its light.
+// The media on both sides of a surface that the path's ray reached, and the light left.
 uint come_to_surface(inout path_state p, bool arrives, inout surface s) {
     REAL way = p.hit.t;
     if (HAS_MEDIA || HAS_FRESNEL)
@@ -340,7 +340,7 @@ uint come_to_surface(inout path_state p, bool arrives, inout surface s) {
     return HAS_MEDIA && s.is_over ? STOPPED : GOES_ON;
 }
 
-// Straight on behind a surface that nobody sees.
+// Goes straight on behind a surface that nobody sees.
 void pass_surface(inout path_state p, surface s) {
     p.start = leave(s, p.hit, -s.geometric);
     p.inside = s.after;
@@ -349,7 +349,7 @@ void pass_surface(inout path_state p, surface s) {
     p.hit.item = NO_ITEM;
 }
 
-// What the ray of a phase hit; the surface of the path's own one, or of one that was found before.
+// Takes the hit of a phase's ray; makes the surface for the path's own ray, or for one found before.
 uint arrive(inout path_state p, uint phase, hit_record hit, light_ray shadow, inout surface s, inout ray_start start) {
     uint state = GOES_ON;
     if (phase == PHASE_RAY)
@@ -371,7 +371,7 @@ uint arrive(inout path_state p, uint phase, hit_record hit, light_ray shadow, in
     return state;
 }
 
-// After a ray that was wanted, or a surface that was found before: on from there.
+// Continues after a wanted ray, or from a surface that was found before.
 uint arrive_and_go_on(uint slot, inout path_state p, bool wanted, hit_record hit, inout surface s, inout ray_start start,
                       inout uint phase, inout light_ray shadow, inout uint iterations, inout bool fresh,
                       inout uint fault) {
@@ -394,7 +394,7 @@ uint arrive_and_go_on(uint slot, inout path_state p, bool wanted, hit_record hit
     return state;
 }
 
-// A chain of rays that ended: its background, and a refracted ray that waits.
+// Ends a chain of rays: looks up its background, and takes a waiting refracted ray.
 void end_chain(uint slot, inout path_state p, inout uint state, inout uint phase) {
     if (state == MISSED)
         p.radiance += tinted(p, seen_beyond(p.direction));
@@ -413,8 +413,8 @@ void end_chain(uint slot, inout path_state p, inout uint state, inout uint phase
 
 layout(constant_id = CONSTANT_LISTED) const bool LISTED = false;
 
-// Of a sample of those that the dispatch traces. Pixels that end by their error have points of their own: what they share
-// would not be seen as an error.
+// The offset of one of the dispatch's samples. Pixels that end by their error have points of their own: an error that
+// they share would not be noticed.
 vec2 offset_in_pixel(uint sample_number) {
     vec2 offset = vec2(dispatch.offset_x, dispatch.offset_y);
 #ifndef FETCH_TEXELS

@@ -1,4 +1,4 @@
-// One ray through all that a scene has, for kernels that trace few.
+// Traces one ray through all trees of a scene, for kernels that trace few rays.
 
 void trace_all(ray_start start, exact_aim aim, bool any, inout hit_record hit, inout uint iterations) {
     REAL3 direction = aim.direction;
@@ -15,11 +15,11 @@ void trace_all(ray_start start, exact_aim aim, bool any, inout hit_record hit, i
     }
 }
 
-// What is left of a light that would add `shadow.value`; `ended` is false where a ray did not end.
+// What is left of a light that would add `shadow.value`; `ended` is false if a ray did not end.
 vec3 shine_all(ray_start start, uint light, light_ray shadow, media_set inside, inout bool ended) {
     shining way = shine_from(start, inside);
     uint rays = 0u;
-    // Loops pass `arrived` on: after its end lavapipe would show some lanes the hit of others.
+    // Loops carry `arrived` over: after a loop's end lavapipe would show some lanes the hit of others.
     bool goes_on = true, arrived = false;
     do {
         uint iterations = 0u;

@@ -2,8 +2,8 @@
 //
 // Ylitie, Karras, Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs",
 // sections 4.1 and 4.2, with a decoding that never loses a hit: t = (p - o)/d + q * (2^e/d), the far side
-// multiplied by BOX_FAR_SCALE. In double precision t counts from where the ray enters the node, so that single
-// precision suffices after it: see gpu_scene.h.
+// multiplied by BOX_FAR_SCALE. In double precision t counts from where the ray enters the node, so single
+// precision is enough from there: see gpu_scene.h.
 
 struct tree_ray {
     REAL3 origin;
@@ -12,7 +12,7 @@ struct tree_ray {
     uint flip4;   // in each byte
 #ifdef INSTANCES
     REAL3 pad;    // how much earlier and later than its planes a box begins and ends
-    REAL begin;   // what its t counts from
+    REAL begin;   // the value that the ray's t counts from
 #endif
 };
 
@@ -32,12 +32,12 @@ tree_ray make_tree_ray(REAL3 origin, REAL3 direction) {
     return ray;
 }
 
-// Byte k of `bytes`, still times 256^k for k < 3: the factor is divided out of the axis' scale instead.
+// Byte k of `bytes`, still times 256^k for k < 3: the axis' scale is divided by this factor instead.
 float byte_scaled(uint bytes, uint k) {
     return k == 3u ? float(int(bytes >> 24u)) : float(int(bytes & (0xffu << (8u * k))));
 }
 
-// A node as a ray sees it: plane q of an axis lies at base + q * scale, a far one at far_base + q * scale.
+// A node relative to a ray: plane q of an axis lies at base + q * scale, a far one at far_base + q * scale.
 #ifdef INSTANCES
 #define FAR_BASE(f) f.far_base
 #else
@@ -49,7 +49,7 @@ struct node_frame {
 #ifdef INSTANCES
     vec3 far_base;
 #endif
-    float t_max, t_min; // all t less that of entering the node
+    float t_max, t_min; // relative to the t at which the ray enters the node
     float slack;
 };
 #define NODE_BEGIN(f)    f.t_min
@@ -66,8 +66,8 @@ struct node_frame {
 #define NODE_LEAVE(f, t) (t * BOX_FAR_SCALE)
 #endif
 
-// The larger and the smaller of two floats, by their bits: lavapipe's own take three instructions, for NaN. Of two
-// negative ones they give the wrong one, which no box notices because rays begin at 0.
+// The larger and the smaller of two floats, by their bits: lavapipe's own take three instructions, because of NaN.
+// For two negative floats they give the wrong one, which does not matter to boxes because rays begin at 0.
 #ifdef DOUBLE_PRECISION
 #define MOST(a, b)  LARGER(a, b)
 #define LEAST(a, b) SMALLER(a, b)
@@ -120,7 +120,7 @@ uint node_half(uvec3 near, uvec3 far, uint meta, node_frame f, uint flip4) {
         vec3 unit = f.scale * (k == 1u ? 1.0 / 256.0 : k == 2u ? 1.0 / 65536.0 : 1.0);
         vec3 q_near = vec3(byte_scaled(near.x, k), byte_scaled(near.y, k), byte_scaled(near.z, k));
         vec3 q_far = vec3(byte_scaled(far.x, k), byte_scaled(far.y, k), byte_scaled(far.z, k));
-        // Fused or not, the boxes stay conservative, and what they let through is tested exactly.
+        // Fused or not, the boxes stay conservative, and all that they let through is tested exactly.
         vec3 t_near = fma(q_near, unit, f.base), t_far = fma(q_far, unit, FAR_BASE(f));
         float enter = MOST(MOST(t_near.x, t_near.y), MOST(t_near.z, NODE_BEGIN(f)));
         float leave = NODE_LEAVE(f, LEAST(LEAST(t_far.x, t_far.y), LEAST(t_far.z, f.t_max)));
@@ -145,12 +145,12 @@ uint node_hits(node_record node, tree_ray ray, REAL t_max) {
            node_half(near_b, far_b, node.meta_b, f, ray.flip4);
 }
 
-// Inner nodes still to be visited below one parent: first child, hits in bits 24..31, the parent's mask of
-// inner children in bits 0..7.
+// Inner nodes still to be visited below one parent: the first child, hits in bits 24..31, the parent's mask
+// of inner children in bits 0..7.
 uvec2 root_group() { return uvec2(0u, 0x80000000u); }
 bool has_nodes(uvec2 group) { return group.y > 0x00ffffffu; }
 
-// Takes the next node out of the group.
+// Removes the next node from the group.
 uint next_node(inout uvec2 group, uint flip) {
     // The exponent of the float is the highest bit: cheaper than findMSB where that is emulated.
     uint bit = (floatBitsToUint(float(int(group.y >> 24u))) >> 23u) - 127u;
@@ -160,8 +160,8 @@ uint next_node(inout uvec2 group, uint flip) {
 }
 
 // The groups that wait on the way back to the root. lavapipe writes an indexed private array lane by lane, a
-// fifth of the whole time: there all levels move by one instead, which costs two blends a level and word, and a
-// group is one word where node numbers are short enough. An empty group, 0, is the bottom.
+// fifth of the whole time: there all levels shift by one instead, which costs two blends per level and word,
+// and a group is one word if node numbers are short enough. An empty group, 0, is the bottom.
 #ifdef FETCH_TEXELS
 uint packed_group(uvec2 group) {
     return PACKED_GROUPS ? (group.x << 16u) | ((group.y >> 16u) & 0xff00u) | (group.y & 0xffu) : group.y;
@@ -222,7 +222,7 @@ uvec2 unpacked_group(uint word, uint base) {
 #define STACK_KEEP_SIZE     long_size = size;
 #endif
 
-// Kernels that keep no rays: what a ray has not found at ITERATION_LIMIT it does not find.
+// Kernels that keep no rays: what a ray has not found by ITERATION_LIMIT it never finds.
 #ifndef TRAVERSAL_LIMIT
 #define TRAVERSAL_LIMIT ITERATION_LIMIT
 #define STACK_RESUME(levels, tree, group)

@@ -1,17 +1,17 @@
-// Closest and any triangle along a ray.
+// Finds the closest or any triangle along a ray.
 //
-// Test: Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection". Bound of t: Pharr, Jakob,
-// Humphreys 2023, section 6.8.7. Equal t goes to the lower number, so that the tree never shows.
-// What that bound leaves open is only noted here: whether a hit lies before the ray's start or behind it, and
-// which of two hits is nearer. Such a ray is traced once more (exact.glsl).
+// Test: Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection". Bound of t: Pharr, Jakob, Humphreys
+// 2023, section 6.8.7. At equal t the lower number wins, so the result does not depend on the tree. What the
+// bound leaves open is only noted here: whether a hit lies in front of the ray's start or behind it, and
+// which of two hits is nearer. Such a ray is traced again (exact.glsl).
 #include "instances.glsl"
 
 struct hit_record {
-    REAL t;      // the ray's end before, where nothing was hit
+    REAL t;      // until something is hit, the ray's end
     REAL b1;     // barycentrics of v1 and v2 as stored
     REAL b2;
     uint item;   // leaf item, with ITEM_SPHERE for spheres; NO_ITEM: nothing
-    uint number; // spheres by body, then triangles: decides ties
+    uint number; // spheres by body, then triangles: breaks ties
 };
 const uint NO_ITEM = 0xffffffffu;
 const uint ITEM_SPHERE = 0x80000000u;
@@ -60,7 +60,7 @@ shear_ray make_shear_ray(REAL3 origin, REAL3 direction) {
 }
 
 #ifdef ALTERNATIVES
-// Barycentrics come times the determinant, which counts for a unit direction.
+// Barycentrics are multiplied by the determinant, which holds for a unit direction.
 bool test_moeller(triangle_record triangle, shear_ray ray, inout float v, inout float w, inout float det,
                   inout float t) {
     vec3 ab = triangle.v1 - triangle.v0, ac = triangle.v2 - triangle.v0;
@@ -80,19 +80,19 @@ struct triangle_search {
     REAL slack; // as in ray_start
     uint left;
     REAL wrong; // bound of the error of the nearest hit's t
-    REAL doubt; // least t that rounding leaves open
-    REAL edge;           // least t of a triangle that the ray passes within its error of an edge
+    REAL doubt; // the least t that rounding leaves open
+    REAL edge;           // the least t of a triangle that the ray passes within its error of an edge
     uint near_a, near_b; // triangles within the error of the ray's start; NO_ITEM: none
 };
 
 // What a search of triangles leaves open.
 struct ray_doubts {
     bool all;            // which of all triangles is hit
-    uint near_a, near_b; // else: whether the ray starts before these or behind them; NO_ITEM: no triangle
+    uint near_a, near_b; // else: whether the ray starts in front of these or behind them; NO_ITEM: no triangle
 };
 ray_doubts no_doubts() { return ray_doubts(false, NO_ITEM, NO_ITEM); }
 
-// Two such triangles are noted: a corner may have more, and then all are looked at once more.
+// Two such triangles are noted: a corner may have more, and then all triangles are tested again.
 void note_near(uint item, inout triangle_search search) {
     bool is_full = HAS_LONG_RAYS || BEGINS || search.near_b != NO_ITEM;
     search.doubt = is_full ? 0.0 : search.doubt;
@@ -102,7 +102,7 @@ void note_near(uint item, inout triangle_search search) {
     search.near_a = search.near_a == NO_ITEM ? item : search.near_a;
 }
 
-// Most triangles of a leaf are passed by, and often by all lanes of a GPU's subgroup. lavapipe runs every branch.
+// Most triangles of a leaf are missed, often by all lanes of a GPU's subgroup. lavapipe runs every branch.
 #if defined(FETCH_TEXELS) || defined(DOUBLE_PRECISION) || defined(ALTERNATIVES)
 #define LEAVE_IF(condition)
 #else
@@ -111,7 +111,7 @@ void note_near(uint item, inout triangle_search search) {
         return;
 #endif
 
-// Bound of the error of u, v and w, where no corner is farther than this from the ray.
+// Bound on the error of u, v and w, if no corner is farther than this from the ray.
 REAL edge_error(REAL x_most, REAL y_most, REAL z_most, REAL slack) {
     REAL delta_x = GAMMA_5 * (x_most + z_most) + 2.0 * slack;
     REAL delta_y = GAMMA_5 * (y_most + z_most) + 2.0 * slack;
@@ -141,8 +141,8 @@ void test_triangle(uint item, bool there, inout triangle_search search, inout hi
     LEAVE_IF(!(highest <= delta_e || lowest >= -delta_e || inside))
     REAL inverse = 1.0 / det;
     REAL t = (u * (ray.sz * a.z) + v * (ray.sz * b.z) + w * (ray.sz * c.z)) * inverse;
-    // t is a mean of the vertices' z: an error of its weights moves it by their spread at most. Seen edge-on, it
-    // may be anywhere among them.
+    // t is a mean of the vertices' z: an error of its weights moves it by at most their spread. Seen edge-on, it
+    // may be anywhere between them.
     REAL z_low = SMALLER(SMALLER(a.z, b.z), c.z) * ray.sz, z_high = LARGER(LARGER(a.z, b.z), c.z) * ray.sz;
     REAL first = SMALLER(z_low, z_high), last = LARGER(z_low, z_high);
     bool edge_on = !(abs(det) > 3.0 * delta_e);
@@ -191,9 +191,9 @@ void test_triangle(uint item, bool there, inout triangle_search search, inout hi
 #define SKIP_MISSED(item)
 #endif
 
-// On lavapipe nodes are searched until one has items to be tested, and these are tested then, by all lanes that have
-// some at once (docs/decisions/kernel.md). A lane that has left a loop keeps what it had only through a branch: one that
-// is always taken.
+// On lavapipe nodes are searched until one has items to test, which all lanes that have some then test at once
+// (docs/decisions/kernel.md). A lane that has left a loop keeps what it had only through a branch: one that is always
+// taken.
 #ifdef FETCH_TEXELS
 #define ITEMS_WAIT
 // Items of a node, as bits counted from `first`.

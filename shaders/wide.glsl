@@ -1,5 +1,5 @@
-// Numbers with twice the digits of REAL, for the few decisions that REAL leaves open: double where it is at hand
-// in single precision, else the unevaluated sum of two numbers of REAL.
+// Numbers with twice the digits of REAL, for the few decisions that REAL leaves open: double if it is available
+// in single precision, else the unevaluated sum of two REALs.
 //
 // Dekker 1971, "A Floating-Point Technique for Extending the Available Precision", and Knuth 1997, section 4.2.2:
 // exact sums and products by operations that must be neither fused nor reordered (tools/spirv_exact).
@@ -14,7 +14,7 @@ const REAL WIDE_SPLIT = 134217729.0lf; // 2^27 + 1
 const REAL WIDE_SPLIT = 4097.0; // 2^12 + 1
 #endif
 
-// Where |a| >= |b|, or a is 0.
+// Requires |a| >= |b|, or a = 0.
 WIDE wide_ordered(REAL a, REAL b) {
     REAL sum = a + b;
     return WIDE(sum, b - (sum - a));

@@ -1,7 +1,7 @@
 // The records of shaders/records.h as C structs that flattening fills, and their packing into words as
 // kernels read them.
 //
-// Numbers and colours are double here, whatever a kernel has: packing rounds those that are float. A record
+// Numbers and colours are double here, whatever a kernel uses: packing rounds those that are float. A record
 // begins as zeros, so that a field that nobody fills is 0 in both precisions. Thread safety: pure functions.
 #ifndef GLINT_TRACER_GPU_RECORDS_H
 #define GLINT_TRACER_GPU_RECORDS_H
@@ -20,7 +20,7 @@
 #define GPU_MEMBER_FLOAT(name, word, component, word64, component64) double name;
 #define GPU_MEMBER_UINT(name, word, component, word64, component64)  uint32_t name;
 
-// Where a part of a word lies in it: components, and halves, which are named by two.
+// Where a part lies in a word: components, and halves, which are named by two.
 enum {
     GPU_PART_x = 0,
     GPU_PART_y = 1,
@@ -44,7 +44,7 @@ static inline void gpu_pack_float3(struct gpu_word *words, uint32_t word, vec3 v
 static inline void gpu_pack_double(struct gpu_word *words, uint32_t word, uint32_t part, double value) {
     memcpy((unsigned char *)(words + word) + part * sizeof(uint32_t), &value, sizeof value);
 }
-// What TRIANGLE_REST says: bits of a double cut off after those of a float, and the rest.
+// TRIANGLE_REST: the bits of a double after those of a float are cut off, and are the rest.
 static inline void gpu_pack_split(struct gpu_word *words, uint32_t word, uint32_t part, double value) {
     const uint64_t bits = double_bits(value), rest = bits & ((UINT64_C(1) << SPLIT_BITS) - 1);
     gpu_pack_float(words, word, part, double_of_bits(bits - rest));
@@ -55,7 +55,7 @@ static inline void gpu_pack_split3(struct gpu_word *words, uint32_t word, vec3 v
     gpu_pack_split(words, word, GPU_PART_y, value.y);
     gpu_pack_split(words, word, GPU_PART_z, value.z);
 }
-// The number again that gpu_pack_split packed.
+// Restores the number that gpu_pack_split packed.
 static inline double gpu_split_value(float first, uint32_t rest) {
     return double_of_bits(double_bits(first) | rest);
 }

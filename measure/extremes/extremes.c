@@ -37,16 +37,16 @@ struct run {
     const struct extremes_progress *progress;
     struct extremes *out;
     enum extremes_status status;
-    struct arena arena; // of the variant under way
+    struct arena arena; // of the current variant
     struct extreme_base base;
     struct arena base_arena;
     struct variant base_variant, limit_variant;
-    uint32_t *taken;           // samples of the device's pixels, where they end by their error
+    uint32_t *taken;           // samples of the device's pixels, if they end by their error
     struct hit_pixel *hits[2]; // device, reference
     double *exact;
     float *rgb, *shown[2]; // the device's picture; displayed: device, reference
     float *rest;           // the device's picture of the base, displayed; NULL: not made
-    struct diag_sink sink; // of flattening: its message becomes the reason why a cell was left out
+    struct diag_sink sink; // of flattening: its message becomes the reason why a cell is left out
 };
 
 static size_t pixels_of(const struct run *run) {
@@ -135,7 +135,7 @@ static enum extremes_status trace_device(struct run *run, const struct variant *
 
 // ---- the reference's side
 
-// The picture with as many samples of each pixel as the device took.
+// The picture, with as many samples of each pixel as the device took.
 struct taking {
     const struct run *run;
     const struct reference *reference;
@@ -226,8 +226,7 @@ static void compare_hits(struct run *run, const struct variant *v, struct extrem
     cell->measured[EXTREME_HOLES] = errors.holes;
 }
 
-// Whole paths: how much of the background they see, in the precision of the cell. The variant is not itself
-// any more.
+// Whole paths: how much of the background they see, in the precision of the cell. This modifies the variant.
 static enum extremes_status compare_paths(struct run *run, struct variant *v, struct extreme_cell *cell) {
     if (!variant_bounces(v))
         return EXTREMES_DONE;
@@ -242,7 +241,7 @@ static enum extremes_status compare_paths(struct run *run, struct variant *v, st
     return status;
 }
 
-// The device's own picture of what the axis comes to; the cell's own is in shown[0].
+// The device's own picture of the axis' limit; the cell's own is in shown[0].
 static enum extremes_status compare_limit(struct run *run, struct extreme_cell *cell) {
     struct variant *v = &run->limit_variant;
     struct measure_result result;
@@ -321,7 +320,7 @@ static bool list_cells(struct extremes *out, uint32_t axes) {
 
 // ---- the base
 
-// The surface seen nearest to the picture's middle that does not refract.
+// The nearest surface at the picture's middle that does not refract.
 static void find_surface(struct run *run) {
     const struct variant *v = &run->base_variant;
     struct extreme_base *base = &run->base;
@@ -358,7 +357,7 @@ static enum extremes_status make_base(struct run *run) {
     return status;
 }
 
-// What moves and scales are compared with.
+// Makes the picture that moves and scales are compared with.
 static enum extremes_status make_rest(struct run *run) {
     struct extreme_cell cell = {0};
     enum extremes_status status = trace_device(run, &run->base_variant, &cell);

@@ -2,8 +2,8 @@
 // and camera on surfaces; each variant on a device against the double-precision reference.
 //
 // Variants are made of the IR in memory, in double; meshes and images are loaded once. Each axis varies one
-// thing; a cell is one value of it. Axes that need a shape of their own put it where the scene is, as large
-// as the scene. What is compared: the first rays (hits.h), a picture of one sample per pixel, the reference
+// thing; a cell is one value of it. Axes that need a shape of their own put it in the scene's place, as large
+// as the scene. Compared are the first rays (hits.h), a picture of one sample per pixel, the reference
 // obeying the file's depth and weight, and how much of the background each pixel's whole path sees. Precision
 // auto is decided anew for each cell. Ownership: extremes_finish frees the cells; the input must outlive the
 // run. Errors: a status; device errors in gpu_error. Thread safety: the gpu's thread.
@@ -36,7 +36,7 @@ struct extreme_axis_info {
 enum extreme_unit {
     EXTREME_UNIT_WHOLE,
     EXTREME_UNIT_SHARE,
-    EXTREME_UNIT_SMALL, // two digits that count
+    EXTREME_UNIT_SMALL, // two significant digits
 };
 struct extreme_metric_info {
     const char *name, *title;
@@ -49,9 +49,9 @@ struct extreme_cell {
     enum extreme_axis axis;
     double value;
     const char *left_out;             // why it was not measured; NULL: it was
-    bool is_double;                   // what the precision came to
+    bool is_double;                   // the precision that was chosen
     double measured[EXTREME_METRICS]; // NaN: not measured
-    double bound[EXTREME_METRICS];    // the least that applies; NaN: none
+    double bound[EXTREME_METRICS];    // the strictest one that applies; NaN: none
     uint32_t broken;                  // bit 1 << metric
     double seconds;
 };
@@ -72,16 +72,16 @@ struct extremes_input {
     const struct extreme_bound *bounds;
     uint32_t bound_count;
     uint32_t axes;                       // bit 1 << axis: those wanted
-    enum render_alternative alternative; // another tracer's ways in place of glint's own, in single precision
+    enum render_alternative alternative; // another tracer's method, in single precision; else glint's own
 };
 
-// Called before each cell with what is done, 0..1, and the cell; false ends the run.
+// Called before each cell with the share done, 0..1, and the cell; false ends the run.
 struct extremes_progress {
     bool (*report)(void *context, double fraction, const struct extreme_cell *cell);
     void *context;
 };
 
-// The bounds that hold where no others are given: YAML (load/settings/extreme_bounds.h).
+// The bounds used if no others are given: YAML (load/settings/extreme_bounds.h).
 extern const char extremes_default_bounds[];
 
 enum extremes_status {
@@ -103,7 +103,7 @@ enum extremes_status extremes_run(struct extremes *extremes, const struct extrem
                                   const struct extremes_progress *progress);
 void extremes_finish(struct extremes *extremes); // NULL and zeroed ones are fine
 
-// A value as people read it; "-" where it is NaN.
+// A value in readable form; "-" if it is NaN.
 void extreme_number(enum extreme_metric metric, double value, struct strbuf *out);
 
 // ---- reports (extremes_report.c, extremes_html.c)

@@ -1,5 +1,5 @@
-// Extremes as one HTML file: the matrix as SVG, an axis a row, a value a cell, a strip of it a metric; then
-// all numbers. No scripts, nothing from outside.
+// Extremes as one HTML file: the matrix as SVG, with a row per axis, a cell per value and in it a strip per
+// metric; then all numbers. No scripts, no external resources.
 #include "measure/extremes/extremes.h"
 
 #include <math.h>
@@ -26,8 +26,8 @@ static const char style[] =
     "@media(prefers-color-scheme:dark){body{color:#e6e6e6;background:#181818}svg text{fill:#e6e6e6}"
     "th,td{border-color:#444}.b{background:#7a2b22}}";
 
-// Green where nothing is wrong, yellow to orange the nearer to the bound, red beyond; blue to violet where
-// there is no bound; grey where nothing was measured.
+// Green if nothing is wrong, yellow to orange the nearer to the bound, red beyond; blue to violet if there is
+// no bound; grey if nothing was measured.
 static const char *strip_color(const struct extreme_cell *cell, int metric) {
     static const char *const bounded[] = {"#2f9e62", "#8fbf4d", "#e0b93c", "#e08a3c"};
     static const char *const unbounded[] = {"#9fc3dd", "#6f8fd0", "#6a5acd"};

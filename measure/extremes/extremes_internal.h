@@ -1,4 +1,4 @@
-// The inside of extremes: variants of a scene, and the values of the axes. Private to measure/extremes.
+// The internals of extremes: variants of a scene, and the values of the axes. Private to measure/extremes.
 //
 // Ownership: a variant's copies lie in the arena given; meshes and images stay the base's. Where the arena
 // ends, its guard is jumped to. Thread safety: one thread.
@@ -10,11 +10,11 @@
 #include "scene/hits.h"
 
 enum {
-    SOFT_SAMPLES = 4 // of what has extent: one takes the middle of everything
+    SOFT_SAMPLES = 4 // of anything with extent: one sample takes the middle of everything
 };
 
-// A scene that can be changed without changing its base: its bodies and materials are copies, and so are the
-// cameras and lights of its IR. `scene` points into the variant, which must stay where it is.
+// A scene that can be changed without changing its base: its bodies and materials are copies, as are the
+// cameras and lights of its IR. `scene` points into the variant, which must not move.
 struct variant {
     struct arena *arena;
     struct ir_scene ir;
@@ -33,7 +33,7 @@ struct extreme_base {
     struct view view;
     vec3 center; // of the bodies' box
     double radius;
-    bool has_surface;                 // the camera sees one
+    bool has_surface;                 // the camera sees such a surface
     vec3 surface, normal, seen_along; // a point on it, towards the viewer, the ray's direction
 };
 
@@ -48,15 +48,16 @@ uint32_t extreme_values(enum extreme_axis axis, double *values);
 // variant.
 const char *variant_make(struct variant *v, struct arena *arena, const struct extreme_base *base,
                          enum extreme_axis axis, double value);
-// Whether the value is so near the end of its axis that the picture is that of the limit, and then its value:
-// a radius of 0, say, which is a point.
+// Whether the value is so near the end of its axis that the picture is that of the limit; *limit is then the
+// limit's value: for example a radius of 0, which is a point.
 bool extreme_limit(enum extreme_axis axis, double value, double *limit);
-// The copy alone, with its view.
+// Only the copy, with its view.
 void variant_copy(struct variant *v, struct arena *arena, const struct extremes_input *input);
 
-// Whether rays go on from any surface.
+// Whether any surface sends rays on.
 bool variant_bounces(const struct variant *v);
-// Nothing shines but the background, which is 1: a pixel is the weight with which its path sees that.
+// Makes only the background shine, with 1: a pixel is then the weight with which its path sees the
+// background.
 void variant_show_background(struct variant *v);
 
 // ---- extremes_probe.c: shapes of their own. All take their place from the base.
@@ -69,7 +70,7 @@ bool probe_nested(struct variant *v, const struct extreme_base *base, uint32_t b
 
 // ---- extremes_light.c: lights with extent, lenses, paint, media, and pixels that end by their error
 
-// As variant_make, of an axis of these; the copy is made.
+// As variant_make, for one of these axes; the copy is already made.
 const char *variant_change_light(struct variant *v, const struct extreme_base *base, enum extreme_axis axis,
                                  double value);
 

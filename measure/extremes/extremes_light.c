@@ -1,4 +1,4 @@
-// Variants of what light does: where lights, lenses, textures, media and samples come to their ends.
+// Variants of lighting: lights, lenses, textures, media and samples at their limits.
 #include "measure/extremes/extremes_internal.h"
 
 #include "grammar/ir_features.h"
@@ -10,9 +10,9 @@ enum {
     ERROR_SAMPLES_LEAST = 4,
 };
 #define DEGREE 0.017453292519943295769
-static const double LENS = 0.01;            // of the axis of focus, in parts of the scene's radius
+static const double LENS = 0.01;            // of the focus axis, as a fraction of the scene's radius
 static const double ERROR = 0.02;           // of the axis of least samples
-static const double AMBIENT = 0.3;          // where the scene has none
+static const double AMBIENT = 0.3;          // used if the scene has none
 static const vec3 COLORED = {1, 0.5, 0.25}; // of what absorbs
 
 // ---- lights
@@ -54,7 +54,7 @@ static bool set_occlusion(struct variant *v, const struct extreme_base *base, do
 
 // ---- the lens
 
-// The IR says that there is a lens, the view what it is.
+// The IR says that there is a lens, the view holds its values.
 static bool set_lens(struct variant *v, const struct extreme_base *base, double aperture, double focus) {
     struct view_camera *camera = &v->view.camera;
     if (v->ir.cameras.count == 0)
@@ -75,10 +75,10 @@ static bool set_focus(struct variant *v, const struct extreme_base *base, double
 
 // ---- materials
 
-// The features of the material as if it were that of the IR, which is changed too.
+// The features of the material as if the IR had it so; the IR is changed too.
 static void ask_for(struct variant *v, uint32_t index, double roughness, double emission) {
     struct scene_material *m = &v->scene.materials[index];
-    const uint32_t own = index % v->scene.assets->material_count; // after all of them come copies
+    const uint32_t own = index % v->scene.assets->material_count; // copies follow after all of them
     struct ir_material ir = v->scene.assets->materials[own];
     ir.roughness = roughness;
     ir.emission = (struct ir_color){.r = emission, .g = emission, .b = emission};
@@ -121,12 +121,12 @@ static bool set_density(struct variant *v, const struct extreme_base *base, doub
 
 // ---- paint
 
-// What an image comes to where a pixel covers all of it: its last level, which is one pixel.
+// The colour of an image if a pixel covers all of it: its last level, which is one pixel.
 static vec3 mean_of(const struct scene_texture *texture) {
     return scene_texel(texture, texture->level_count - 1, 0, 0);
 }
 
-// Filtered, and scaled about the origin of its coordinates; by 0: its mean.
+// Filtered, and scaled about the origin of its coordinates; scaled by 0: its mean.
 static void scale_image(struct scene_image *image, vec3 colors[], uint32_t color_count, double value) {
     if (value > 0) {
         image->filter = IR_FILTER_AUTO;
@@ -178,7 +178,7 @@ static bool set_error(struct variant *v, const struct extreme_base *base, double
     return true;
 }
 
-// As a session does it: with no more samples than these no pixel ends.
+// As a session does: with no more samples than these no pixel ends.
 static bool set_least(struct variant *v, const struct extreme_base *base, double value) {
     (void)base;
     v->error = value < ERROR_SAMPLES ? ERROR : 0;
@@ -190,7 +190,7 @@ static const struct light_axis {
     enum extreme_axis axis;
     uint32_t samples;
     bool (*change)(struct variant *v, const struct extreme_base *base, double value);
-    const char *lacks; // why it may change nothing
+    const char *lacks; // why the axis may change nothing
 } light_axes[] = {
     {EXTREME_LIGHT_RADIUS, SOFT_SAMPLES, set_radius, "no light has a place"},
     {EXTREME_LIGHT_ANGLE, SOFT_SAMPLES, set_angle, "no light has a direction"},

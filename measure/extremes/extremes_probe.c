@@ -1,4 +1,4 @@
-// Shapes that extremes puts where the scene is: a disc of slivers, two plates in the same plane, two with a
+// Shapes that extremes puts in the scene's place: a disc of slivers, two plates in the same plane, two with a
 // gap.
 #include "measure/extremes/extremes_internal.h"
 
@@ -17,7 +17,7 @@ struct pose {
     double size;
 };
 
-// Before the camera, so large that it fills half of the view's height, and leaning a little.
+// In front of the camera, large enough to fill half of the view's height, and tilted a little.
 static struct pose before_camera(const struct variant *v, const struct extreme_base *base) {
     const struct view_camera *camera = &v->view.camera;
     const double far = fmax(vec3_length(vec3_sub(base->center, camera->position)), base->radius);
@@ -39,7 +39,7 @@ static vec3 on_pose(const struct pose *pose, double x, double y) {
 
 // ---- slivers
 
-// Around the rim, a needle of the aspect, then what is left of the sector, by turns.
+// Around the rim alternate a needle of the aspect and the rest of the sector.
 static struct mesh *make_disc(struct arena *arena, const struct pose *pose, double aspect) {
     const double wanted = ceil(TWO_PI * aspect);
     const uint32_t sectors = wanted < SECTORS_LEAST ? SECTORS_LEAST
@@ -74,7 +74,7 @@ static struct mesh *make_disc(struct arena *arena, const struct pose *pose, doub
     return mesh;
 }
 
-// With the default material. The room for it was made with the variant.
+// With the default material. The variant was made with room for it.
 static struct scene_body *add_body(struct variant *v, enum scene_shape shape) {
     uint32_t *material = ARENA_ARRAY(v->arena, uint32_t, 1);
     *material = v->ir.materials.count;
@@ -109,8 +109,8 @@ void probe_coplanar(struct variant *v, const struct extreme_base *base, double s
     }
 }
 
-// Alone in the scene's place: the camera in the middle between the plates, a light between them before it,
-// and one above them that must not be seen.
+// Alone in the scene's place: the camera in the middle between the plates, a light between them in front of
+// it, and one above them that must not be seen.
 void probe_gap(struct variant *v, const struct extreme_base *base, double gap) {
     struct view_camera *camera = &v->view.camera;
     const double size = 2 * base->radius;
@@ -143,7 +143,7 @@ void probe_gap(struct variant *v, const struct extreme_base *base, double gap) {
 
 // ---- balls
 
-// After the spheres that there are: tracers number spheres first, as the IR does.
+// Inserted after the existing spheres: tracers number spheres first, as the IR does.
 static struct scene_body *add_ball(struct variant *v, const uint32_t *material) {
     struct scene_body *bodies = v->scene.bodies;
     uint32_t at = 0;

@@ -1,4 +1,4 @@
-// Variants of a scene, made in memory: moved, scaled, seen from afar, of other materials.
+// Variants of a scene, made in memory: moved, scaled, seen from afar, with other materials.
 #include "measure/extremes/extremes_internal.h"
 
 #include "grammar/ir_features.h"
@@ -64,7 +64,7 @@ uint32_t extreme_values(enum extreme_axis axis, double *values) {
     return axis_values[axis].count;
 }
 
-// From where to where an axis is at its end, and the value that it comes to there.
+// The range in which an axis is at its end, and the limit's value.
 static const struct {
     enum extreme_axis axis;
     double from, to, limit;
@@ -103,7 +103,7 @@ static void make_view(struct variant *v) {
     view_turn_aside(&v->view.camera);
 }
 
-// After the materials comes a copy of each, for meshes: their checkers do not grow with the scene.
+// After the materials follows a copy of each, for meshes: their checkers do not grow with the scene.
 static void copy_materials(struct variant *v) {
     struct scene *scene = &v->scene;
     const uint32_t count = scene->material_count;
@@ -208,7 +208,8 @@ static vec3 over_surface(const struct extreme_base *base, double height) {
     return vec3_add(base->surface, vec3_mul(base->normal, height * base->radius));
 }
 
-// Turns a panel so that it shines against `normal`: about the axis across both, by Rodrigues' formula.
+// Turns a panel so that it shines against `normal`: about the axis perpendicular to both directions, by
+// Rodrigues' formula.
 static void face_surface(struct view_light *light, vec3 normal) {
     const vec3 to = vec3_neg(normal), from = light->outward;
     vec3 axis = vec3_cross(from, to);
@@ -241,7 +242,7 @@ static void light_surface(struct variant *v, const struct extreme_base *base, do
     view_light_shine(light, v->view.camera.position);
 }
 
-// From the surface into the mirrored direction of the ray that found it.
+// Looks from the surface in the mirrored direction of the ray that found it.
 static void stand_on_surface(struct variant *v, const struct extreme_base *base, double height) {
     struct view_camera *camera = &v->view.camera;
     camera->position = over_surface(base, height);

@@ -1,4 +1,4 @@
-// A search: few rows, each chosen by those before it, until one is found that keeps what is asked.
+// A search: few rows, each chosen from those before it, until one is found that keeps the bounds.
 #include "core/clock.h"
 #include "measure/tradeoff/plan/plan_search.h"
 #include "measure/tradeoff/tradeoff_internal.h"
@@ -6,7 +6,7 @@
 #include <math.h>
 
 enum {
-    STEPS_EXPECTED = 20, // of a search; more make the last ones look short
+    STEPS_EXPECTED = 20, // of a search; a larger number would make the last ones look short
 };
 
 static struct plan_search_input plan_input_of(const struct measuring *s) {
@@ -22,7 +22,7 @@ static struct plan_search_input plan_input_of(const struct measuring *s) {
                                       .allow_resolution = options->allow_resolution};
 }
 
-// Rows until the search is over, or the time for it.
+// Tries rows until the search, or the time for it, is over.
 static enum tradeoff_status run_rows(struct measuring *s) {
     const struct plan_search_input input = plan_input_of(s);
     struct row next;
@@ -39,7 +39,7 @@ static enum tradeoff_status run_rows(struct measuring *s) {
     return TRADEOFF_DONE;
 }
 
-// Probes told what to draw, and are not pictures.
+// Probes told what to draw, but are not pictures.
 static void drop_probes(struct tradeoff *t) {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < t->count; i++)

@@ -15,28 +15,28 @@
 enum {
     PAIRS_MOST = 24,
 };
-// Share of the budget after which no pairs are begun.
+// Share of the budget after which no pairs are started.
 static const double PAIRS_SHARE = 0.6;
 
 static bool is_over(const struct measuring *s, double share) {
     const double budget = s->out->options.budget_s;
     const double now = measuring_seconds(s);
-    // What has been begun must be timed, too, in a round at least: most frames are preceded by another, since
-    // they differ from those before.
+    // Rows that were started must also be timed, in at least one round: most frames are preceded by another,
+    // since they differ from those before.
     return budget > 0 && (now > share * budget || now + 2 * s->round_seconds > budget);
 }
 
 // ---- rows
 
-// Work, picture and errors of a new row. A row that costs far too much, or that the budget's end comes upon
-// on the device, is taken out again.
+// Work, picture and errors of a new row. A row that costs far too much, or that the end of the budget
+// interrupts on the device, is removed again.
 static enum tradeoff_status try_row(struct measuring *s, const struct row *planned) {
     struct row *row = tradeoff_add_row(s->out, planned);
     if (!row)
         return TRADEOFF_MEMORY;
     if (!measuring_step(s, row->name))
         return TRADEOFF_CANCELLED;
-    // The file's own settings are waited for, whatever they take.
+    // The file's own settings are always awaited, however long they take.
     const double budget = s->out->options.budget_s;
     s->deadline = budget > 0 && s->out->count > 1 ? s->begun + budget : 0;
     enum tradeoff_status status = device_count(s, row);
@@ -63,8 +63,8 @@ static enum tradeoff_status try_row(struct measuring *s, const struct row *plann
 
 // ---- before the rows
 
-// With the file's error even where pixels do not end by it: rows that say how many samples there are switch
-// it off.
+// Includes the file's error even if pixels do not end by it: rows that set the number of samples switch it
+// off.
 static struct setting file_setting(const struct tradeoff_input *in) {
     const struct ir_trace *trace = &in->scene->ir->trace;
     return (struct setting){.width = (uint32_t)in->image->width,
@@ -116,7 +116,7 @@ static enum tradeoff_status run_rows(struct measuring *s) {
     struct row *planned = heap_zeroed(PLAN_ROWS_MAX, sizeof *planned);
     if (!planned)
         return TRADEOFF_MEMORY;
-    // The file's own settings are counted first: how deep paths go decides the ladders.
+    // The file's own settings are counted first: the depth of paths decides the ladders.
     struct row own = {.setting = s->base};
     enum tradeoff_status status = device_count(s, &own);
     if (status == TRADEOFF_DONE && !measuring_step(s, "the reference"))
@@ -177,7 +177,7 @@ static enum tradeoff_status choose(struct tradeoff *t) {
         return TRADEOFF_MEMORY;
     for (uint32_t i = 0; i < t->count; i++) {
         const struct row *row = &t->rows[i];
-        // A picture with pixels that are not a number is never chosen.
+        // A picture with NaN pixels is never chosen.
         choices[i] = (struct choice_row){.time_ms = row->time_ms,
                                          .noise_ms = row->noise_ms,
                                          .work = row->work.cost,

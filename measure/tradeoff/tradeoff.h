@@ -16,7 +16,7 @@ enum tradeoff_status tradeoff_run(struct tradeoff *study, const struct tradeoff_
                                   const struct tradeoff_progress *progress);
 void tradeoff_finish(struct tradeoff *study);
 
-// The one that keeps every bound that was asked for; NULL: none was asked for.
+// The choice that keeps every bound that was asked for; NULL: none was asked for.
 const struct choice *tradeoff_choice(const struct tradeoff *study);
 
 #endif

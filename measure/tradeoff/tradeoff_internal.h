@@ -5,9 +5,9 @@
 
 #include "measure/tradeoff/measure/measure.h"
 
-// rows.c: a copy of the row at the end of the study's, its values not yet known. NULL: no memory.
+// rows.c: appends a copy of the row to the study's rows, its values not yet known. NULL: no memory.
 struct row *tradeoff_add_row(struct tradeoff *study, const struct row *row);
-// Takes the last row out again.
+// Removes the last row again.
 void tradeoff_drop_row(struct tradeoff *study);
 // Whether something reflects or refracts.
 bool tradeoff_bounces(const struct measuring *s);

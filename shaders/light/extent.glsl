@@ -3,18 +3,19 @@
 struct light_spot {
     REAL3 place; // of a light that is not infinitely far away
     REAL3 l;     // unit, towards it
-    REAL share;  // of what a point there would add
+    REAL share;  // of what a light at that point would add
 };
 
-// In a cap around `axis` of directions that all count alike; `gap`: 1 - cosine of its half angle. `along` is what the cosine
-// to the axis lacks of 1.
+// A direction in a cap around `axis`, all equally likely; `gap`: 1 - cosine of its half angle. `lacks`: 1 - the cosine to
+// the axis.
 REAL3 in_cap(REAL3 axis, REAL gap, uint key, out REAL lacks) {
     REAL2 at = disc_point(point_at(key));
     lacks = gap * (at.x * at.x + at.y * at.y);
     return turned_to(axis, at * sqrt(gap * (2.0 - lacks)), 1.0 - lacks);
 }
 
-// Where the sample takes a light with extent. `l`, `distance2`: to its middle. `ray_key`: of the ray that hit the surface.
+// Where the sample takes a light with extent. `l`, `distance2`: to its middle. `ray_key`: the key of the ray that hit the
+// surface.
 light_spot spot_of(uint index, light_record light, REAL3 point, REAL3 l, REAL distance2, uint ray_key) {
     extent_record extent = load_extent(index);
     uint key = point_key(ray_key, POINT_LIGHT + index);
@@ -38,7 +39,7 @@ light_spot spot_of(uint index, light_record light, REAL3 point, REAL3 l, REAL di
         spot.share = 2.0 / (2.0 - gap);
         // Where the sphere is hit; from inside it, on the far side.
         REAL beside2 = distance2 * lacks * (2.0 - lacks);
-        // Where a body has the same sphere, in front of that, by what rounding of the sphere and of a long ray may be.
+        // If a body has the same sphere, in front of it, by the possible rounding of the sphere and of a long ray.
         REAL reach = inside ? extent.radius - extent.before_body : extent.radius + extent.before_body;
         REAL deep = sqrt(max(reach * reach - beside2, 0.0)), middle = sqrt(distance2) * (1.0 - lacks);
         REAL t = inside ? middle + deep : middle - deep;

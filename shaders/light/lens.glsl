@@ -5,12 +5,12 @@ struct camera_ray {
     REAL3 direction; // unit
 };
 
-// Where a fisheye or a panorama looks; (x, y) is the place in the picture, -1..1.
+// The direction in which a fisheye or a panorama looks; (x, y) is the place in the picture, -1..1.
 REAL3 fisheye_direction(REAL x, REAL y) {
     REAL3 across = CAMERA(right) * x + CAMERA(up) * y;
     REAL quarters = sqrt(dot3(across, across));
     REAL2 turned = turn_by(quarters);
-    // By so small an angle sine and angle are the same.
+    // For such a small angle, sine and angle are equal.
     REAL part = quarters > 1.0e-12 ? turned.y / quarters : HALF_PI;
     return unit3(CAMERA(forward) * turned.x + across * part);
 }
@@ -21,8 +21,8 @@ REAL3 panorama_direction(REAL x, REAL y) {
     return unit3(level * latitude.x + CAMERA(up) * latitude.y);
 }
 
-// From a point of the lens through the point that the ray in the middle of the lens has in focus. A lens that looks ahead
-// lies across the view and is focused on a plane; one that looks all round lies across each ray.
+// From a point on the lens through the point that the ray through the middle of the lens has in focus. A lens that looks
+// ahead lies across the view and focuses on a plane; one that looks all round lies across each ray.
 void focus_ray(uvec2 pixel, REAL3 middle, bool ahead, inout camera_ray ray) {
     REAL2 place = disc_point(point_at(point_key(point_root(pixel.x, pixel.y), POINT_LENS))) * REAL(frame.lens_radius);
     REAL3 a, b;
@@ -56,7 +56,7 @@ void through_lens(uvec2 pixel, REAL x, REAL y, inout camera_ray ray) {
         focus_ray(pixel, ahead ? middle : ray.direction, ahead, ray);
 }
 
-// `offset`: of the sample inside the pixel. Which sample it is, the kernel has said (points.glsl).
+// `offset`: of the sample inside the pixel. The kernel has set which sample it is (points.glsl).
 camera_ray camera_ray_at(uvec2 pixel, vec2 offset) {
     camera_ray ray = camera_ray(CAMERA(position), camera_direction_at(pixel, offset));
     if (HAS_CAMERA && wants(FEATURE_CAMERA)) {

@@ -10,7 +10,8 @@ const bool HAS_POINTS = (FEATURES & FEATURE_POINTS) != 0u;
 uvec2 point_pixel = uvec2(0u);
 uint point_sample = 0u;
 
-// Where what has the key is sampled: all bits of it, of a picture of one sample too, which then looks grainy.
+// Where the thing with this key is sampled: all bits, even in a picture of one sample, which then looks
+// grainy.
 uvec2 point_bits_at(uint key) {
     uint bits = POINT_BITS;
     uint seed = point_seed(key, point_sample, bits);
@@ -18,7 +19,7 @@ uvec2 point_bits_at(uint key) {
     return uvec2(point_first(order, seed), point_second(order, seed));
 }
 
-// Where what has the key is sampled. Both in 0..1; the middle where the picture has one sample per pixel.
+// Where the thing with this key is sampled. Both in 0..1; the middle if the picture has one sample per pixel.
 vec2 point_at(uint key) {
     uint bits = POINT_BITS;
     uint seed = point_seed(key, point_sample, bits);

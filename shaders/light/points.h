@@ -31,8 +31,8 @@ static inline uint32_t point_reverse(uint32_t x) {
 #define POINT_REVERSE(x) bitfieldReverse(x)
 #endif
 
-/* What is sampled at a ray's hit, or where it begins. A ray that leaves a hit has a key of its own; one that
-   passes a surface unseen keeps its key. */
+/* What is sampled at a ray's hit or start. A ray that leaves a hit has a key of its own; one that passes a
+   surface unseen keeps its key. */
 #define POINT_SAME      0u
 #define POINT_REFLECTED 1u
 #define POINT_REFRACTED 2u
@@ -43,7 +43,7 @@ static inline uint32_t point_reverse(uint32_t x) {
 #define POINT_ROUGH     7u  /* a facet of the surface that it hits */
 #define POINT_LIGHT     16u /* and from here on the lights */
 
-#define POINT_SQUARE   256u       /* pixels a side, a power of two of at most 8 bits */
+#define POINT_SQUARE   256u       /* pixels per side, a power of two of at most 8 bits */
 #define POINT_MOST     16u        /* bits of a sample's number that have places in one sequence */
 #define POINT_FRACTION 0x1p-24    /* of the 24 bits of a coordinate: C */
 #define POINT_DIVISOR  16777216.0 /* the same: GLSL */
@@ -67,7 +67,7 @@ POINT_FUNCTION point_root(POINT_UINT x, POINT_UINT y) {
     return point_hash(point_hash(x / POINT_SQUARE) + y / POINT_SQUARE);
 }
 
-/* Each bit changes by what those below it are. */
+/* Each bit changes depending on the bits below it. */
 POINT_FUNCTION point_swap(POINT_UINT x, POINT_UINT seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
@@ -76,7 +76,7 @@ POINT_FUNCTION point_swap(POINT_UINT x, POINT_UINT seed) {
     return x ^ x * 0x53a22864u;
 }
 
-/* Eight bits with a bit of room after each. */
+/* Spreads eight bits, with one free bit after each. */
 POINT_FUNCTION point_apart(POINT_UINT x) {
     x = (x | x << 4) & 0x0f0fu;
     x = (x | x << 2) & 0x3333u;
@@ -90,7 +90,7 @@ POINT_FUNCTION point_place(POINT_UINT x, POINT_UINT y, POINT_UINT n, POINT_UINT 
     return curve << bits | (n & ((1u << bits) - 1u));
 }
 
-/* Samples beyond `bits` have sequences of their own. */
+/* Samples beyond `bits` get sequences of their own. */
 POINT_FUNCTION point_seed(POINT_UINT key, POINT_UINT n, POINT_UINT bits) {
     return key ^ point_hash(n >> bits);
 }

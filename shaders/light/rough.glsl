@@ -1,9 +1,9 @@
-// Rough surfaces (docs/language.md, "Roughness"): reflection and refraction by the normal of a facet that is drawn for each
-// ray, of those that the ray sees.
+// Rough surfaces (docs/language.md, "Roughness"): reflection and refraction by the normal of a facet, drawn for each ray
+// among those that it sees.
 
 // Facets are those of GGX (Walter, Marschner, Li, Torrance 2007), seen ones as Heitz 2018 draws them ("Sampling the GGX
 // Distribution of Visible Normals"), by the shorter way of Dupuy and Benyoub 2023 ("Sampling Visible GGX Normals with
-// Spherical Caps"). `key`: of the ray, whose direction is `d`. A picture's only sample finds the surface smooth.
+// Spherical Caps"). `key`, `d`: of the ray. A picture's only sample finds the surface smooth.
 void roughen(REAL3 d, uint key, inout surface s) {
     s.micro = s.shading;
     bool drawn = s.alpha > 0.0 && frame.point_bits > OPAQUE_ZERO;

@@ -7,15 +7,16 @@ const REAL HALF_PI = 1.57079632679489661923lf;
 const REAL HALF_PI = 1.57079632679489661923;
 #endif
 
-// A divisor. Browsers' compilers make a product with the inverse of one that they know, which is rounded otherwise.
+// A divisor. Browsers' compilers replace division by a known number with a product with its inverse, which rounds
+// differently.
 #ifdef WEBGPU
 #define BY(number) ((number) + float(OPAQUE_ZERO))
 #else
 #define BY(number) (number)
 #endif
 
-// Cosine and sine of an angle in quarter turns: by Taylor's series of what is left of the nearest whole number of them, so
-// that quarter turns are exact. Relative error of what is cut off: 2e-9, or 1e-16 in double precision.
+// Cosine and sine of an angle in quarter turns: by Taylor's series of the difference from the nearest whole number, so
+// quarter turns are exact. Relative error from cutting off the series: 2e-9, or 1e-16 in double precision.
 REAL2 turn_by(REAL quarters) {
     REAL nearest = floor(quarters + 0.5);
     REAL r = (quarters - nearest) * HALF_PI, z = r * r;
@@ -53,7 +54,8 @@ REAL2 disc_point(vec2 point) {
     return (wide ? turned : turned.yx) * radius;
 }
 
-// Two unit vectors across `n`, unit, and each other. They change suddenly only near an axis of no scene.
+// Two unit vectors perpendicular to the unit vector `n` and to each other. They change abruptly only near an
+// axis that no scene uses.
 void frame_around(REAL3 n, out REAL3 a, out REAL3 b) {
     REAL3 axis = REAL3(9.0, 12.0, 20.0) / 25.0;
     if (abs(dot3(axis, n)) > 0.875)

@@ -1,4 +1,4 @@
-// Lights that rays see (docs/language.md, "Lights that are seen"): no ray but a path's own knows of them.
+// Lights that rays see (docs/language.md, "Lights that are seen"): only a path's own rays see them.
 
 struct seen_light {
     REAL t;        // how far away it is; before one is found, how far the ray goes
@@ -8,7 +8,7 @@ struct seen_light {
 
 seen_light no_light(REAL t_max) { return seen_light(t_max, 0u, vec3(0.0)); }
 
-// Where a ray comes upon a sphere from outside; below 0: nowhere. `way`: from its start to the middle.
+// Where a ray enters a sphere from outside; below 0: nowhere. `way`: from its start to the middle.
 REAL sphere_ahead(REAL3 way, REAL3 direction, REAL radius) {
     REAL middle = dot3(way, direction);
     REAL3 beside = way - direction * middle;
@@ -40,7 +40,7 @@ void see_lights(REAL3 start, REAL3 direction, inout seen_light seen) {
     }
 }
 
-// What is seen where nothing is hit: the background, and discs in front of it. By the sine of the angle to their middle,
+// What is seen if nothing is hit: the background, and discs in front of it. Uses the sine of the angle to their middle,
 // which has the digits that small discs need.
 vec3 seen_beyond(REAL3 direction) {
     vec3 sum = background(direction);

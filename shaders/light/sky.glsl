@@ -2,7 +2,7 @@
 
 struct sky_spot {
     REAL3 l; // unit
-    vec3 emission; // as of a light in that direction
+    vec3 emission; // as for a light in that direction
 };
 
 uint sky_number(uint at) {
@@ -15,7 +15,7 @@ uint sky_number(uint at) {
 #endif
 }
 
-// The last of `count` shares, `apart` from each other, that does not begin after `place`.
+// The last of `count` shares, `apart` from each other, that begins at or before `place`.
 uint share_at(uint first, uint count, uint apart, uint place) {
     uint at = 0u, step = 1u << uint(findMSB(count));
     while (step > OPAQUE_ZERO) {
@@ -32,7 +32,7 @@ uint share_at(uint first, uint count, uint apart, uint place) {
     return at;
 }
 
-// Where a share ends, less where it begins; 2^32, where the last one ends, is 0.
+// A share's end minus its begin; 2^32, where the last share ends, is 0.
 uint share_width(uint first, uint count, uint apart, uint at) {
     uint end = at + 1u < count ? sky_number(first + min(at + 1u, count - 1u) * apart) : 0u;
     return end - sky_number(first + at * apart);
@@ -54,7 +54,7 @@ sky_spot sky_at(uint key) {
     REAL c = BACKGROUND_TURN.x, s = BACKGROUND_TURN.y;
     sky_spot spot;
     spot.l = REAL3(turned.x * c + turned.y * s, step > 0.0 ? 1.0 - gap : gap - 1.0, turned.y * c - turned.x * s);
-    // Over pi, and over the density, which is the cell's share over its solid angle.
+    // Divided by pi and by the density, which is the cell's share over its solid angle.
     REAL size = 2.0 * abs(step) / REAL(frame.sky_width);
     spot.emission = background(spot.l) * float(size * (4294967296.0 / high) * (4294967296.0 / wide));
     return spot;

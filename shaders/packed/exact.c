@@ -50,7 +50,7 @@ static bool has_doubles(const uint32_t *module, size_t words) {
     return false;
 }
 
-// Copies what is before types and constants; gives the words written.
+// Copies everything before types and constants; returns the number of words written.
 static size_t copy_head(const uint32_t *module, size_t words, size_t end, uint32_t *out) {
     const bool doubles = has_doubles(module, words);
     size_t count = 0;

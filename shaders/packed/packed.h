@@ -2,12 +2,13 @@
 // tool that packs and the program that unpacks.
 //
 // Modules that share most of their code differ in nearly all of its words, since most words are ids. So the
-// words of a function are written without ids: one that the function introduces is the next number, one that
-// it has is the distance back to it, and any other (a type, a constant, a function that it calls) is the next
-// of its outer ids. What is left is the same in all modules that have the function, and is stored once.
+// words of a function are written without ids: an id that the function introduces is the next number, one
+// that it already has is stored as the distance back to it, and any other (a type, a constant, a function
+// that it calls) is the next of its outer ids. The rest is the same in all modules that have the function,
+// and is stored once.
 //
 // A module has bytes of its own: what comes before its first function, the outer ids of each function, and
-// the order of its functions. Its functions are in groups: those that the same modules have. A module's
+// the order of its functions. Functions are grouped by the set of modules that have them. A module's
 // functions are numbered through its groups. Bytes hold seven bits of a number each, the lowest first.
 //
 // The words' distances are an idea of SMOL-V (Aras Pranckevičius, 2016). Thread safety: pure.
@@ -19,7 +20,7 @@
 #include <stdint.h>
 
 enum {
-    PACKED_HEADER_WORDS = 5, // of a module: as they are
+    PACKED_HEADER_WORDS = 5, // of a module: stored as they are
 };
 
 // The parts that follow each other in the bytes of a module, or of a group.
@@ -48,7 +49,7 @@ static inline bool packed_has_type(uint32_t opcode) {
             (opcode < SpvOpLoopMerge || opcode > SpvOpUnreachable));
 }
 
-// The first of the words of an instruction that are literals to its end; a large number: none.
+// The first word of an instruction from which all words to its end are literals; a large number: none.
 static inline uint32_t packed_literals(uint32_t opcode) {
     switch (opcode) {
     case SpvOpTypeInt:
@@ -96,14 +97,14 @@ static inline bool packed_single_literal(uint32_t opcode, uint32_t index) {
     }
 }
 
-// What word `index` of an instruction is, from 1 on. A wrong answer costs bytes, not a word.
+// What word `index` of an instruction is, from 1 on. A wrong answer only costs bytes: no word is lost.
 static inline enum packed_word packed_word_of(uint32_t opcode, uint32_t index) {
     if (index >= packed_literals(opcode) || packed_single_literal(opcode, index))
         return PACKED_LITERAL;
     return index == 1 && packed_has_type(opcode) ? PACKED_TYPE : PACKED_ID;
 }
 
-// The word of an instruction that the ids after it are counted from, before the first function: what it makes
+// Before the first function: the word from which an instruction's later ids are counted, the id that it makes
 // or decorates.
 static inline uint32_t packed_result(uint32_t opcode) {
     return packed_has_type(opcode) ? 2 : 1;

@@ -32,7 +32,7 @@ static uint32_t read_distance(struct packed_bytes *part) {
     return value & 1 ? ~(value >> 1) : value >> 1;
 }
 
-// The instruction that begins, its first word written; gives its length, 0 if there is no room for it.
+// Begins an instruction and writes its first word; returns its length, 0 if there is no room for it.
 static uint32_t begin(struct unpacking *to, struct packed_bytes *heads, uint32_t *opcode) {
     *opcode = packed_number(heads);
     const uint32_t length = packed_number(heads);

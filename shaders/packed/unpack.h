@@ -19,7 +19,7 @@ struct packed_bytes {
 uint32_t packed_number(struct packed_bytes *part);
 // The next `count` bytes as a part of their own.
 struct packed_bytes packed_piece(struct packed_bytes *part, size_t count);
-// Read to its end, and not beyond.
+// Whether it was read to its end, and not beyond.
 bool packed_all_read(const struct packed_bytes *part);
 
 struct packed_function {
@@ -30,7 +30,7 @@ struct packed_function {
 struct unpacking {
     struct packed_bytes own[PACKED_PARTS];
     uint32_t *words;
-    size_t count, at;        // of words: how many there must be, and how many there are
+    size_t count, at;        // of words: the number required, and the number so far
     uint32_t *local, *outer; // ids of a function: room for `count` each
     size_t locals, outers;
     uint32_t newest; // the largest id so far

@@ -1,21 +1,22 @@
 // Colours that differ from place to place: images, and checkers that are filtered (docs/language.md, "Paint").
 //
-// The footprint of a pixel is that of a cone around its ray (Akenine-Moeller, Crassin, Boksansky, Belcour, Panteleev
-// and Wright 2021, "Improved Shader and Texture Level of Detail Using Ray Cones"): on a surface an ellipse, whose longer
-// axis is cut into as many parts as the shorter one fits into it.
+// The footprint of a pixel is that of a cone around its ray (Akenine-Moeller, Crassin, Boksansky, Belcour, Panteleev and
+// Wright 2021, "Improved Shader and Texture Level of Detail Using Ray Cones"): on a surface an ellipse, whose longer
+// axis is cut into as many parts as the shorter axis fits into it.
 
 const bool HAS_PAINT = HAS_TEXTURES || HAS_FOOTPRINT;
 const uint TAPS_MAX = 15u; // odd
-// What the taps of surfaces may add to an iteration: of two images, or of one and a checker; of a surface that light shines through too.
+// How much the taps of surfaces may add to an iteration: for two images, or for one and a checker; also for a surface that light shines
+// through.
 const uint PAINT_ITERATIONS = HAS_FOOTPRINT ? (HAS_CLEAR_SHADOWS ? 2u : 1u) * (2u * TAPS_MAX + 4u) : 0u;
 
-// How wide a pixel is along a ray: at its start, and what it gains for each length. Negative where rays have crossed. In the
-// kernel's precision, because lenses and mirrors that gather light leave a small difference of large numbers.
+// How wide a pixel is along a ray: its width at the start, and its growth per length. Negative where rays have crossed. In
+// the kernel's precision, because focusing lenses and mirrors leave a small difference of large numbers.
 #define RAY_CONE REAL2
-// The cone of the ray whose hit becomes a surface.
+// The cone of the ray whose hit is made into a surface.
 RAY_CONE surface_cone = REAL2(0.0);
 
-// Where a surface is hit in its coordinates, and how these change along the two axes of the footprint.
+// A hit in a surface's coordinates, and how these change along the two axes of the footprint.
 struct paint_spot {
     REAL2 at;
     REAL2 along, across;
@@ -72,7 +73,7 @@ vec3 image_texel(paint_record p, uvec4 level, int x, int y) {
     return color;
 }
 
-// From any coordinate to 0..1.
+// Maps any coordinate to 0..1.
 REAL folded(paint_record p, REAL x) {
     REAL rest = x - 2.0 * floor(x * 0.5);
     REAL inside = rest > 1.0 ? 2.0 - rest : rest;
@@ -103,7 +104,7 @@ vec3 image_bilinear(paint_record p, uint number, REAL2 at) {
     float right = float(x - x0), low = float(y - y0);
     ivec2 column = beside(p, x0, int(level.y)), row = beside(p, y0, int(level.z));
 #ifdef WEBGPU
-    // The same sums, texel by texel: a browser's compiler puts each call's code in its place.
+    // The same sums, texel by texel: a browser's compiler inlines every call.
     vec3 sum = vec3(0.0), side = vec3(0.0);
     for (uint i = 0u; i < 4u + OPAQUE_ZERO; i++) {
         vec3 texel = image_texel(p, level, (i & 1u) == 0u ? column.x : column.y, i < 2u ? row.x : row.y);
@@ -121,12 +122,12 @@ vec3 image_bilinear(paint_record p, uint number, REAL2 at) {
 
 // ---- taps
 
-// An axis that is `parts` times as long as each of its taps, evenly around the middle: whole ones, and at both ends what is
-// left, half each. So their places and weights change evenly with `parts`.
+// An axis that is `parts` times as long as each of its taps, which are symmetric about the middle: whole ones, and half of
+// the remainder at each end. So their places and weights change smoothly with `parts`.
 struct tap_row {
     REAL parts; // 1 .. TAPS_MAX
     uint count; // odd
-    REAL end;   // how much of a tap the first and the last one are
+    REAL end;   // what fraction of a tap the first and the last one are
 };
 
 tap_row taps_of(REAL longer, REAL shorter) {
@@ -140,7 +141,7 @@ tap_row taps_of(REAL longer, REAL shorter) {
 
 REAL tap_weight(tap_row row, uint i) { return i == 0u || i + 1u == row.count ? row.end : REAL(1.0); }
 
-// Its middle, from -1/2 to 1/2 along the axis.
+// The tap's middle, from -1/2 to 1/2 along the axis.
 REAL tap_place(tap_row row, uint i) {
     REAL last = REAL(row.count / 2u), from_middle = REAL(i) - last;
     REAL inward = 0.5 * (1.0 - row.end);
@@ -150,10 +151,10 @@ REAL tap_place(tap_row row, uint i) {
 
 // ---- images
 
-// Footprints that are longer are all the same: squares of squares must be floats, too.
+// Longer footprints are all treated alike: squares of squares must fit into floats, too.
 const float MOST_PIXELS = 1073741824.0;
 
-// Grows by one with each power of two, and evenly between them.
+// Grows by one with each power of two, and linearly between them.
 REAL level_of(REAL size, uint count) {
     uint bits = floatBitsToUint(float(size));
     REAL part = size * uintBitsToFloat(0x7f000000u - (bits & 0x7f800000u));
@@ -161,7 +162,7 @@ REAL level_of(REAL size, uint count) {
     return size > 1.0 ? min(level, REAL(count) - 1.0) : REAL(0.0);
 }
 
-// The ellipse of two vectors to its rim that are each other's conjugates, in pixels: its axes do not depend on which two.
+// An ellipse given by two conjugate radii, in pixels: its axes do not depend on which two.
 struct image_ellipse {
     REAL2 axis; // its longer one
     REAL longer, shorter;
@@ -188,7 +189,7 @@ vec3 image_filtered(paint_record p, REAL2 at, REAL2 along, REAL2 across) {
     float share = float(level - REAL(below));
     REAL2 axis = e.axis / size;
     vec3 sum = vec3(0.0);
-    // The last level's next is itself: lavapipe computes it for all lanes.
+    // The last level's successor is itself: lavapipe computes it for all lanes.
     uint above = min(below + 1u, p.level_count - 1u);
     for (uint i = 0u; i < row.count; i++) {
         if (i < row.count) {
@@ -229,7 +230,7 @@ vec3 image_color(paint_record p, paint_spot spot) {
 
 // ---- checkers
 
-// Mean over a way of width w around x of what is 1 in even cells and -1 in odd ones.
+// The mean over an interval of width w around x of a function that is 1 in even cells and -1 in odd ones.
 REAL wave(REAL x, REAL w) {
     REAL cell = floor(x), odd = cell - 2.0 * floor(cell * 0.5);
     REAL at = x - cell + odd, low = at - 0.5 * w, high = at + 0.5 * w; // even cells begin at 0
@@ -259,7 +260,7 @@ float odd_share(REAL3 at, REAL3 along, REAL3 across, bool is_flat) {
 
 // ---- coordinates
 
-// Of a mesh's triangle: COORDINATE_WORDS of its three corners, from the body's first one on.
+// For a mesh's triangle: COORDINATE_WORDS for its three corners, starting at the body's first word.
 void mesh_spot(uint coordinates, uint triangle, REAL b1, REAL b2, REAL2 db_along, REAL2 db_across, inout paint_spot spot) {
 #ifdef DOUBLE_PRECISION
     uint at = (coordinates & ~1u) + COORDINATE64_WORDS * triangle;
@@ -286,12 +287,12 @@ void half_spot(bool is_second, REAL2 at, REAL2 db_along, REAL2 db_across, inout 
     spot.across = is_second ? REAL2(b.x, b.x + b.y) : REAL2(b.x + b.y, b.y);
 }
 
-// Longitude and latitude of a sphere's unit normal, as the background's; v grows to +y.
+// Longitude and latitude of a sphere's unit normal, as for the background; v grows towards +y.
 struct sphere_map {
     REAL3 o;
     REAL2 outward; // x and z of the meridian, unit
-    REAL around;   // how far from the axis, radius 1
-    REAL least;    // the same, but not less than where a pixel covers all longitudes
+    REAL around;   // distance from the axis, radius 1
+    REAL least;    // the same, but at least the distance where a pixel covers all longitudes
 };
 
 REAL2 sphere_change(sphere_map map, REAL3 way) {
@@ -311,7 +312,7 @@ void sphere_spot(REAL3 outward, REAL radius, REAL width, inout paint_spot spot) 
 
 // ---- cones
 
-// What frame.footprint, a float, is rounded by is a factor of all widths alike: it cancels where they are compared.
+// The rounding of frame.footprint, a float, is a common factor of all widths: it cancels when they are compared.
 RAY_CONE camera_cone(REAL3 direction) {
     RAY_CONE cone = REAL2(0.0, frame.footprint * dot3(direction, CAMERA(forward)));
     uint projection = frame.projection + OPAQUE_ZERO;

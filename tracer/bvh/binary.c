@@ -14,7 +14,7 @@ struct build {
     enum bvh_method method;
     uint32_t leaf_items; // at most
     struct top *top;
-    struct subtree *results; // of the top's small ranges
+    struct subtree *results; // of the small ranges of the top
 };
 
 static void build_range(const struct build *build, struct binary_range range, unsigned level,
@@ -43,7 +43,7 @@ static void build_small(void *context, size_t begin, size_t end) {
     }
 }
 
-// The subtrees of the large ranges, from those of their sides, which have higher numbers.
+// The subtrees of the large ranges, from those of their children, which have higher numbers.
 static void join_large(const struct build *build) {
     for (uint32_t i = build->top->count; i-- > 0;) {
         const struct top_node *node = &build->top->nodes[i];

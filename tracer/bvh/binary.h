@@ -1,9 +1,9 @@
 // The binary tree between items and the wide tree. Private to tracer/bvh.
 //
-// Every subtree covers a range of the items, which the build sorts in place. A subtree of n items has
-// n - 1 nodes, at [id, id + n - 1): its root, then its left child's, then its right child's; a subtree of
-// one item is the item itself. So ids follow from counts, and threads build subtrees without sharing. Boxes
-// are not kept: those of wide nodes follow from the items below them.
+// Every subtree covers a range of the items, which the build sorts in place. A subtree of n items has n - 1
+// nodes, at [id, id + n - 1): its root, then its left child's, then its right child's; a subtree of one item
+// is the item itself. So ids follow from counts, and threads build subtrees without sharing data. Boxes are
+// not kept: the boxes of wide nodes follow from the items below them.
 #ifndef GLINT_TRACER_BVH_BINARY_H
 #define GLINT_TRACER_BVH_BINARY_H
 
@@ -11,7 +11,7 @@
 
 struct binary_node {
     uint32_t left_count; // items of the left child
-    uint32_t choices;    // how to make this subtree at least cost: see binary_choice
+    uint32_t choices;    // the cheapest way to make this subtree: see binary_choice
 };
 
 // A subtree: `node` means nothing where count is 1.
@@ -33,8 +33,9 @@ enum {
     CHOICE_MASK = 7
 };
 
-// roots 1: whether the subtree is a leaf. 2 to 7: as up to so many roots, of which the left child gives this
-// many; 0: one root fewer costs no more. 8: the roots that the left child gives to a wide node made of it.
+// roots 1: whether the subtree is a leaf. 2 to 7: as up to that many roots, this is how many the left child
+// gives; 0: one root fewer costs no more. 8: how many roots the left child gives to a wide node made from the
+// subtree.
 static inline uint32_t binary_choice(const struct binary_node *node, int roots) {
     return node->choices >> (CHOICE_BITS * (roots - 1)) & CHOICE_MASK;
 }

@@ -30,7 +30,7 @@ static inline void box_add_point(struct bvh_box *box, lanes point) {
     box->lower = lanes_min(box->lower, point);
     box->upper = lanes_max(box->upper, point);
 }
-// Half of the surface of a box that is not empty; in double, so that it neither overflows nor vanishes.
+// Half the surface area of a non-empty box; in double, so that it neither overflows nor vanishes.
 static inline double box_area(const struct bvh_box *box) {
     float size[4];
     lanes_store(lanes_sub(lanes_three(box->upper), lanes_three(box->lower)), size);

@@ -40,15 +40,15 @@ static int exponent_above(double value) {
     return (int)(bits >> DOUBLE_DIGITS) - DOUBLE_BIAS + !is_power;
 }
 
-// Of a number that is neither negative nor large, rounded up.
+// Rounds up a number that is neither negative nor large.
 static uint32_t whole_above(double value) {
     const int32_t below = (int32_t)value;
     return (uint32_t)(below + (below < value));
 }
 
-// The decoding (p - o)/d + q * (2^e/d) rounds p - o, the two products and the sum. What does not scale
-// with the whole term is below 3 * 255 * 2^-24 quanta; widening by 2^-12 of a quantum covers it, and the
-// scaled far distance covers the rest.
+// The decoding (p - o)/d + q * (2^e/d) rounds p - o, the two products and the sum. The part of the error that
+// does not scale with the whole term is below 3 * 255 * 2^-24 quanta; widening by 2^-12 of a quantum covers
+// it, and the scaled far distance covers the rest.
 static double widening(int exponent) {
     return power_of_two(exponent - 12);
 }
@@ -70,7 +70,7 @@ static void put_byte(uint32_t pair[2], int slot, uint32_t byte) {
     pair[slot / 4] |= byte << (slot % 4 * 8);
 }
 
-// Planes of an empty slot are turned inside out, so that no ray hits it.
+// Planes of an empty slot are inverted, so that no ray hits it.
 static void encode_axis(const struct wide_child slots[BVH_WIDTH], float lower[BVH_WIDTH][4],
                         float upper[BVH_WIDTH][4], int axis, const struct axis_grid *grid, uint32_t low[2],
                         uint32_t high[2]) {

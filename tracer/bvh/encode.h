@@ -10,7 +10,7 @@ struct wide_child {
     bool is_node;
 };
 
-// Slots hold the children; `first_node` and `first_item` are where those of this node begin.
+// Slots hold the children; `first_node` and `first_item` are where this node's children and items begin.
 void encode_node(const struct wide_child slots[BVH_WIDTH], uint32_t first_node, uint32_t first_item,
                  struct gpu_word words[5]);
 

@@ -1,9 +1,9 @@
 #include "tracer/bvh/items.h"
 #include "tracer/bvh/round.h"
 
-// How much wider boxes are than what they hold, as shares of its farthest coordinate: more than the
-// error of a ray's start (shaders/ray_offset.glsl, `leave`), 45 units of 2^-24 or 2^-53, so that a ray from
-// there still meets the box of a triangle that it starts on.
+// How much wider boxes are than their contents, as fractions of the farthest coordinate: more than the error
+// of a ray's start (shaders/ray_offset.glsl, `leave`), 45 units of 2^-24 or 2^-53, so that a ray still meets
+// the box of the triangle that it starts on.
 #define SINGLE_PAD 0x1p-18
 #define DOUBLE_PAD 0x1p-47
 

@@ -1,6 +1,6 @@
-// Four floats at a time: x, y, z, and a fourth that means nothing. Private to tracer/bvh.
+// Four floats at a time: x, y, z, and a fourth that is unused. Private to tracer/bvh.
 //
-// One instruction each where the processor has SSE2 (all of x86-64 do), else plain loops; both give the same
+// One instruction each if the processor has SSE2 (every x86-64 has), else plain loops; both give the same
 // bits: minima and maxima are `a < b ? a : b` and `a > b ? a : b`. Thread safety: pure.
 #ifndef GLINT_TRACER_BVH_LANES_H
 #define GLINT_TRACER_BVH_LANES_H
@@ -37,7 +37,7 @@ static inline lanes lanes_min(lanes a, lanes b) {
 static inline lanes lanes_max(lanes a, lanes b) {
     return _mm_max_ps(a, b);
 }
-// The fourth is 0 then: sums of numbers that mean nothing may be slow.
+// Sets the fourth to 0: sums of meaningless numbers may be slow.
 static inline lanes lanes_three(lanes a) {
     return _mm_and_ps(a, _mm_castsi128_ps(_mm_setr_epi32(-1, -1, -1, 0)));
 }

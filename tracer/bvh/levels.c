@@ -1,4 +1,4 @@
-// Trees that are put together: their nodes moved, and a tree whose leaves become nodes themselves.
+// Combines trees: moves their nodes, and turns the leaves of a tree into nodes.
 #include "core/float_bits.h"
 #include "tracer/bvh/bvh.h"
 

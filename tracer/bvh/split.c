@@ -21,7 +21,7 @@ struct split_grid split_grid_make(const struct bvh_box *middles) {
         float spread = upper[axis] - lower[axis];
         float scale = (float)SPLIT_BINS / spread;
         grid.origin[axis] = lower[axis];
-        // A spread among the smallest numbers has no finite scale; it is as good as none.
+        // A spread of the smallest numbers has no finite scale; it counts as none.
         grid.scale[axis] = spread > 0 && scale <= FLT_MAX ? scale : 0;
     }
     return grid;
@@ -76,7 +76,7 @@ static double best_along(const struct bvh_box box[SPLIT_BINS], const uint32_t co
     side = box_empty();
     items = 0;
     double least = INFINITY;
-    // An empty bin moves nothing to the left: the cut after it is the one before it.
+    // An empty bin moves nothing to the left: the cut after it equals the one before it.
     for (int bin = 1; bin < SPLIT_BINS; bin++) {
         if (!count[bin - 1])
             continue;
@@ -192,7 +192,7 @@ static uint32_t split_by_sweep(struct bvh_item *items, uint32_t count) {
     return best_left;
 }
 
-// The one of three that leaves the pair of least cost goes first.
+// The item whose removal leaves the cheapest pair goes first.
 static void split_three(struct bvh_item items[3]) {
     uint32_t best = 0;
     double best_cost = INFINITY;

@@ -16,7 +16,7 @@ struct split_bins {
 
 // Maps twice the centre of an item to its bin, along each axis.
 struct split_grid {
-    float origin[4], scale[4]; // scale 0: all middles are one here
+    float origin[4], scale[4]; // scale 0: all middles coincide here
 };
 
 struct split_plane {
@@ -36,15 +36,15 @@ void split_bins_clear(struct split_bins *bins);
 void split_bins_add(struct split_bins *bins, const struct split_grid *grid, const struct bvh_item *items,
                     size_t count);
 void split_bins_merge(struct split_bins *into, const struct split_bins *from);
-// The plane of least Σ area * items.
+// The plane with the least Σ area * items.
 struct split_plane split_best(const struct split_bins *bins, const struct split_grid *grid);
 
-// Cuts items[0, count) in place and returns the number of those on the left, 0 < result < count.
-// count is at least 2. `middles` bounds the items' middles; those of the two sides go to `sides`, which is
-// not written where a side has at most SPLIT_SWEEP items and needs none.
+// Cuts items[0, count) in place and returns the number of those on the left, 0 < result < count. count is at
+// least 2. `middles` bounds the items' middles; the two sides' bounds go to `sides`, which is not written for
+// a side of at most SPLIT_SWEEP items, as that needs none.
 uint32_t split_items(struct bvh_item *items, uint32_t count, const struct bvh_box *middles,
                      struct bvh_box sides[2]);
-// Halves by number along the axis where the middles spread most; by order where they do not spread.
+// Halves by number along the axis where the middles spread most; by order if they do not spread.
 uint32_t split_halves(struct bvh_item *items, uint32_t count);
 
 #endif

@@ -6,7 +6,7 @@ void subtree_of_item(const struct bvh_item *item, struct subtree *out) {
     out->cost[0] = box_area(&out->box) * BVH_COST_ITEM;
 }
 
-// The number of costs that a subtree of so many items has.
+// The number of costs that a subtree with this many items has.
 static int costs_of(uint32_t count) {
     return count < BVH_WIDTH - 1 ? (int)count : BVH_WIDTH - 1;
 }
@@ -16,7 +16,7 @@ struct distribution {
     uint32_t left; // roots of the left child
 };
 
-// The cheapest way to give `roots` roots to two children (eq. 4).
+// The cheapest way to split `roots` roots between two children (eq. 4).
 static struct distribution distribute(int roots, const double *left, int lefts, const double *right,
                                       int rights) {
     int k = roots > rights ? roots - rights : 1;

@@ -1,5 +1,5 @@
 // All ranges of a level are cut at once: their items, in pieces of a fixed size, are put into bins, the
-// planes are chosen, and the pieces are sorted into a second array, where the next level begins. So each
+// planes are chosen, and the pieces are sorted into a second array, from which the next level starts. So each
 // level reads the items twice and writes them once, and pieces do not depend on threads.
 #include "tracer/bvh/top.h"
 
@@ -12,15 +12,15 @@
 enum {
     PIECE_ITEMS = 16384,   // of work on one large range
     SMALL_ITEMS = 8192,    // ranges up to this are built by one thread
-    SUBTREES_WANTED = 128, // ranges up to this part of all items, too
+    SUBTREES_WANTED = 128, // ranges up to this fraction of all items, too
 };
 
 struct piece {
     struct split_bins bins;
-    struct bvh_box sides[2]; // bounds of the middles of what goes to each side
+    struct bvh_box sides[2]; // bounds of the middles on each side
     uint32_t node;           // of the top
     uint32_t begin, end;     // items
-    uint32_t left, right;    // where its first item of each side goes
+    uint32_t left, right;    // where its first item for each side goes
 };
 
 struct cut {
@@ -111,7 +111,7 @@ static bool push_sides(struct cutting *c, uint32_t number, uint32_t left_count, 
     return push(c->top, left) && push(c->top, right);
 }
 
-// Cuts nodes that are halved, a thread each.
+// Halves nodes, one thread per node.
 static void halve_nodes(void *context, size_t begin, size_t end) {
     const struct cutting *c = context;
     for (size_t i = begin; i < end; i++) {
@@ -156,7 +156,7 @@ static bool list_pieces(struct cutting *c) {
     return true;
 }
 
-// Chooses a node's plane, and where its pieces put their items. Returns the number of those on the left.
+// Chooses a node's plane, and where its pieces put their items. Returns the number of items on the left.
 static uint32_t choose(struct cutting *c, const struct top_node *node, struct cut *cut) {
     struct split_bins all;
     split_bins_clear(&all);
@@ -172,7 +172,7 @@ static uint32_t choose(struct cutting *c, const struct top_node *node, struct cu
         for (int bin = 0; bin < cut->plane.bin; bin++)
             lefts += piece->bins.count[cut->plane.axis][bin];
     }
-    // What a piece has before it and is not on the left is on the right.
+    // Items before a piece that are not on the left are on the right.
     for (uint32_t i = cut->first_piece; i < cut->end_piece; i++) {
         struct piece *piece = &c->pieces[i];
         piece->right = lefts + piece->begin - (piece->left - node->range.begin);
@@ -216,7 +216,7 @@ static bool cut_level(struct cutting *c) {
     return done;
 }
 
-// Brings back what lies in the second array.
+// Brings items in the second array back.
 static void settle_nodes(void *context, size_t begin, size_t end) {
     const struct cutting *c = context;
     for (size_t i = begin; i < end; i++) {

@@ -1,4 +1,4 @@
-// The first cuts of a large range of items, which threads share: until the ranges are small enough for one
+// The first cuts of a large range of items, shared by threads, until the ranges are small enough for one
 // thread each. Private to tracer/bvh.
 #ifndef GLINT_TRACER_BVH_TOP_H
 #define GLINT_TRACER_BVH_TOP_H
@@ -8,9 +8,9 @@
 
 struct top_node {
     struct binary_range range;
-    struct bvh_box middles; // bounds of its items'
+    struct bvh_box middles; // bounds of its items' middles
     unsigned level;
-    uint32_t left; // of a large one: the number of its left side; the right one comes next
+    uint32_t left; // of a large one: the number of its left side; the right side comes next
     bool is_small;
     bool is_moved; // while cutting: the items are in the second array
 };
@@ -22,7 +22,7 @@ struct top {
     uint32_t small_count;
 };
 
-// Sorts items[0, count) into the ranges. false: no memory. top_finish frees, whatever came of it.
+// Sorts items[0, count) into the ranges. false: no memory. top_finish frees in any case.
 bool top_build(struct bvh_item *items, uint32_t count, enum bvh_method method, struct top *top);
 void top_finish(struct top *top);
 

@@ -1,8 +1,8 @@
-// From the binary tree to the wide one. Children are gathered as the binary nodes decided, depth first; a
-// node is written when those below it are, so that boxes come from below and are kept nowhere.
+// From the binary tree to the wide one. Children are gathered depth first, as the binary nodes decided; a
+// node is written after those below it, so boxes come from below and need not be kept.
 //
 // Ranges of few items are tasks of one thread each. The nodes above them are walked twice: to number the
-// tasks, and, when these are done, to be written.
+// tasks, and to be written when these are done.
 #include "tracer/bvh/wide.h"
 #include "core/heap.h"
 #include "core/parallel.h"
@@ -16,15 +16,15 @@
 
 enum {
     TASK_ITEMS = 8192,  // ranges up to this are tasks
-    TASKS_WANTED = 128, // ranges up to this part of all items, too
+    TASKS_WANTED = 128, // ranges up to this fraction of all items, too
 };
 
 struct task {
     struct binary_range range;
     uint32_t number;                 // of its first node
-    uint32_t level;                  // of that
+    uint32_t level;                  // of that node
     uint32_t nodes;                  // below it
-    uint32_t first_node, first_item; // of those below it; of all its items
+    uint32_t first_node, first_item; // of the nodes below it; of all its items
     struct bvh_box box;
     uint32_t depth;
 };
@@ -50,12 +50,12 @@ struct writer {
 // ---- children
 
 struct children {
-    uint32_t count, nodes, items; // of all; of those that are nodes; items of those that are leaves
+    uint32_t count, nodes, items; // of all children; those that are nodes; items of those that are leaves
     struct binary_range range[BVH_WIDTH];
     bool is_node[BVH_WIDTH];
 };
 
-// Adds the roots of a subtree that becomes at most `roots` of them, left to right.
+// Adds the roots of a subtree that becomes at most `roots` roots, left to right.
 static void gather(const struct binary_tree *tree, struct binary_range range, int roots,
                    struct children *found) {
     if (range.count > 1) {
@@ -101,7 +101,7 @@ static float gain_of(const float off[4], int slot) {
     return (slot & 4 ? off[0] : -off[0]) + (slot & 2 ? off[1] : -off[1]) + (slot & 1 ? off[2] : -off[2]);
 }
 
-// The slot that a child wants most of those not taken.
+// The free slot that suits a child best.
 static int best_slot(const float off[4], uint32_t taken) {
     const int wanted = (off[0] > 0 ? 4 : 0) | (off[1] > 0 ? 2 : 0) | (off[2] > 0 ? 1 : 0);
     if (!(taken >> wanted & 1))
@@ -119,7 +119,7 @@ static int best_slot(const float off[4], uint32_t taken) {
 }
 
 // Sets children into slots so that slot order, turned by the ray's octant, is about front to back: the
-// child and slot that agree best first (Ylitie et al. 2017, section 3.2, greedy instead of by auction).
+// best-matching child and slot first (Ylitie et al. 2017, section 3.2, greedy instead of by auction).
 static void assign_slots(const struct bvh_box *boxes, uint32_t count, int slot_of[BVH_WIDTH]) {
     const struct bvh_box all = box_of_all(boxes, count);
     float off[BVH_WIDTH][4];
@@ -152,7 +152,8 @@ static void assign_slots(const struct bvh_box *boxes, uint32_t count, int slot_o
 
 // ---- writing
 
-// The nodes of children, from `first` on in the order in which they were gathered, in the order of slots.
+// Sorts the nodes of children, from `first` on, from the order in which they were gathered to the order of
+// slots.
 static void sort_nodes(struct gpu_word *first, const struct children *found, const int child_at[BVH_WIDTH]) {
     struct gpu_word copy[BVH_WIDTH * NODE_WORDS];
     uint32_t place[BVH_WIDTH];
@@ -269,7 +270,7 @@ static void write_tasks(void *context, size_t begin, size_t end) {
     }
 }
 
-// Walks what is above the tasks.
+// Walks the nodes above the tasks.
 static void walk_above(struct widening *wide, bool plans, struct writer *w) {
     *w = (struct writer){.wide = wide, .next_node = 1, .above_tasks = true, .plans = plans};
     write_range(w, (struct binary_range){0, 0, wide->tree->count}, 0, 1);

@@ -4,8 +4,8 @@
 
 #include "tracer/bvh/binary.h"
 
-// Fills nodes, order, node_count and depth of `out`, whose `order` has room for all items; tree.count is
-// at least 1. false: no memory.
+// Fills nodes, order, node_count and depth of `out`; its `order` has room for all items; tree.count is at
+// least 1. false: no memory.
 bool wide_build(const struct binary_tree *tree, struct bvh *out);
 
 #endif

@@ -14,7 +14,7 @@
 
 enum {
     PIECE_ITEMS = 16384,
-    SCALE_EXPONENT_MAX = 200, // for scenes smaller than any number that the language accepts
+    SCALE_EXPONENT_MAX = 200, // for scenes smaller than any that the language accepts
 };
 
 // ---- trees
@@ -32,7 +32,7 @@ static void gather_items(void *context, size_t begin, size_t end) {
         memcpy(g->to + i * g->words, g->from + (size_t)g->order[i] * g->words, g->words * sizeof *g->to);
 }
 
-// Builds a tree over `items` and takes the `records` that they name into the order of its leaves.
+// Builds a tree over `items` and reorders the `records` that they name to the order of its leaves.
 static bool make_tree(const struct flat_input *input, struct bvh_item *items, uint32_t count,
                       const struct gpu_word *records, uint32_t words, struct flat_array *nodes,
                       struct flat_array *leaves, uint32_t *depth) {
@@ -62,7 +62,7 @@ static void place_leaves(void *context, size_t begin, size_t end) {
         p->leaf_of[p->order[i]] = (uint32_t)i;
 }
 
-// Builds the tree over the items, which it frees, and says where records go.
+// Builds the tree over the items, frees them, and says where records go.
 static bool make_triangle_tree(struct flattening *f) {
     struct flat_scene *out = f->out;
     struct bvh bvh;
@@ -184,9 +184,9 @@ static enum flatten_fault run(struct flattening *f) {
     return fault;
 }
 
-// In double precision the camera may be so far from all bodies that the float boxes of the trees, as
-// coarse as a float at their distance, would hold many triangles at once: then the place of the bodies' box
-// that is nearest to it. All numbers move with the scene.
+// In double precision the camera may be so far from all bodies that the float boxes of the trees, as coarse
+// as a float at their distance, would each hold many triangles: then the origin is the nearest place of the
+// bodies' box. All numbers move with the scene.
 static vec3 origin_of(const struct flat_input *input) {
     vec3 lower, upper;
     if (!input->is_double || !scene_bounds(input->scene, &lower, &upper))

@@ -1,4 +1,4 @@
-// Bodies: transforms in double with the origin taken off first, then scale, then rounding to float.
+// Bodies: transforms in double with the origin subtracted first, then scale, then rounding to float.
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "diag/codes/rule.h"
@@ -19,7 +19,7 @@ enum {
     PIECE = 8192,
 };
 
-// Whether its record is that of a sphere; else it has triangles.
+// Whether its record is a sphere's; else it has triangles.
 static bool is_sphere(const struct scene_body *body) {
     switch (shape_traits(body->shape).items) {
     case SHAPE_BALL:
@@ -42,7 +42,7 @@ enum flatten_fault flatten_count(struct flattening *f) {
         f->out->sphere_count += is_sphere(body);
         total += body->triangle_count;
     }
-    // What a fault has room for, and the numbers of items (flatten_instances.c).
+    // The limits of a fault's number, and of item numbers (flatten_instances.c).
     _Static_assert(SCENE_ITEMS_MAX < FAULT_NESTED, "");
     f->triangle_total = (uint32_t)total;
     return FLATTEN_DONE;
@@ -52,7 +52,7 @@ struct measuring {
     const struct mesh *mesh;
     affine3 map;      // relative to the origin
     vec3 offset;      // with the origin still in it
-    double *largest;  // by piece: of what is relative to the origin
+    double *largest;  // by piece: of numbers relative to the origin
     double *farthest; // by piece: of scene coordinates
 };
 
@@ -108,7 +108,7 @@ static double measure_body(const struct flattening *f, const struct scene_body *
     return extent;
 }
 
-// Whether a mesh's vertices can neither be outside of what is allowed nor raise the extent's power of two.
+// Whether a mesh's vertices can neither leave the allowed range nor raise the extent's power of two.
 static bool is_bounded(const struct flattening *f, const struct scene_body *body, double extent) {
     const double farthest = fmax(vec3_max_abs(body->lower), vec3_max_abs(body->upper)) * FLATTEN_BOUND;
     const double reach = flatten_reach(f, body);
@@ -147,7 +147,7 @@ void flatten_use_materials(struct flattening *f, const struct scene_body *body) 
         material_flags(f, body->materials[i]);
 }
 
-// A number as kernels will have it.
+// A number as kernels will see it.
 static double rounded(const struct flattening *f, double value) {
     return f->out->is_double ? value : (double)(float)value;
 }
@@ -174,8 +174,9 @@ void flatten_spheres(struct flattening *f, struct gpu_word *words, struct bvh_it
     }
 }
 
-// The corner whose edges tell the normal best. The cross product of two edges is wrong by about a unit in the
-// last place over the sine of their angle: the first corner serves, unless another's edges are much shorter.
+// The corner whose edges give the most accurate normal. The error of the cross product of two edges is about
+// a unit in the last place over the sine of their angle: the first corner is used, unless another's edges are
+// much shorter.
 static uint32_t best_corner(const vec3 corners[3]) {
     double product[3];
     uint32_t best = 0;
@@ -189,8 +190,8 @@ static uint32_t best_corner(const vec3 corners[3]) {
     return product[0] > TRIANGLE_CORNER_FACTOR * product[best] ? best : 0;
 }
 
-// Whether the tracer finds a normal: the cross product of the rounded vertices' edges as it takes it, in
-// single precision, the edges divided by a power of two first.
+// Whether the tracer can compute a normal: the cross product of the rounded vertices' edges in single
+// precision, as it does it, with the edges first divided by a power of two.
 static bool has_area(const vec3 corners[3], uint32_t corner) {
     float edge[2][3];
     float largest = 0;
@@ -249,14 +250,14 @@ static void pack_triangle(const struct flattening *f, const struct gpu_triangle 
     gpu_pack_placed(&record, to);
 }
 
-// 0 for what is below all normal floats: no part of the scene, whose size is 1, and its record could not hold
-// it (shaders/records.h, TRIANGLE_REST).
+// 0 for numbers below all normal floats: they are no part of the scene, whose size is 1, and its record could
+// not hold them (shaders/records.h, TRIANGLE_REST).
 static double without_trace(double value) {
     return fabs(value) < FLT_MIN ? 0 : value;
 }
 
-// `corners` relative to the origin. Its record, where there is a tree; else its item, which flatten_triangles
-// leaves out where the triangle has no area.
+// `corners` relative to the origin. Writes its record if there is a tree; else its item, which
+// flatten_triangles drops if the triangle has no area.
 static void put_triangle(const struct flattening *f, const vec3 corners[3], uint32_t place, uint32_t number,
                          uint32_t body, uint32_t shade) {
     const bool is_double = f->out->is_double;
@@ -287,7 +288,7 @@ struct filling {
     const struct flattening *f;
     const struct scene_body *body;
     affine3 map;
-    const uint32_t *group_shade; // material and flags by group; NULL: `shade` of all
+    const uint32_t *group_shade; // material and flags by group; NULL: `shade` for all
     uint32_t shade;
     uint32_t number;        // of the body
     uint32_t first;         // its first record
@@ -300,7 +301,7 @@ static uint32_t shade_of(const struct filling *fill, uint32_t triangle) {
     return fill->shade | (triangle ? TRIANGLE_SECOND_HALF : 0);
 }
 
-// The stored winding is outward: a mirror exchanges the second and third corner.
+// The stored winding is outward: mirroring exchanges the second and third corner.
 static void fill_triangles(void *context, size_t begin, size_t end) {
     const struct filling *fill = context;
     const bool exchanges = fill->body->mirrored;

@@ -1,4 +1,4 @@
-// Which bodies send on rays: a GPU begins with the paths that lead to them.
+// Which bodies send rays on: a GPU begins with the paths that lead to them.
 #include "core/heap.h"
 #include "tracer/flatten/flatten_internal.h"
 

@@ -1,9 +1,9 @@
 // Instances on the device (shaders/gpu_scene.h): a tree for each mesh that is shared, in a space of its own
 // where coordinates stay below 2, and a tree over the boxes of all instances.
 //
-// A record's rows and offsets are those by which flattening maps a vertex, times the scale, which is a power
-// of two: a product, a sum and the rounding of both give the same bits before and after it (flatten_share.c
-// keeps numbers away from where that would not be so).
+// A record's rows and offsets are those with which flattening maps a vertex, times the scale, a power of two:
+// products, sums and their rounding give the same bits before and after scaling (flatten_share.c keeps
+// numbers out of the range where they would not).
 #include "core/clock.h"
 #include "core/heap.h"
 #include "core/parallel.h"
@@ -21,16 +21,16 @@ enum {
     ITEM_BITS = 30, // the highest bit is ITEM_SPHERE's, and blocks are not full
 };
 
-// What the transformed ray and the host's inverse may be off by, in units of the numbers that they are made
-// of: each component is a sum of three products and an offset, by rounded factors; then a box subtracts and
-// divides (docs/decisions/instances.md).
+// The possible errors of the transformed ray and of the host's inverse, in units of the numbers that they are
+// made of: each component is a sum of three products and an offset, by rounded factors; then a box subtracts
+// and divides (docs/decisions/instances.md).
 #define EDGES_PART    0.95
 #define RAY_UNITS     32.0
 #define INVERSE_UNITS 32.0   // in double, times the map's condition
 #define PAD_MORE      1.0625 // of the pad of flattened boxes: its own roundings
 #define UNIT          0x1p-24
 #define UNIT64        0x1p-53
-// Roundings of what is rounded outward to a float next.
+// Covers the rounding of values that are next rounded outward to a float.
 #define ABOVE 1.000001
 
 struct placing {
@@ -60,7 +60,7 @@ static vec3 tree_space(const struct shared_mesh *shared, vec3 position) {
     return (vec3){ldexp(v.x, shared->exponent), ldexp(v.y, shared->exponent), ldexp(v.z, shared->exponent)};
 }
 
-// What few triangles reach beyond; negative: no memory.
+// An edge length that few triangles exceed; negative: no memory.
 static double usual_edge(const struct mesh *mesh) {
     double *longest = heap_zeroed((size_t)mesh->triangle_count + 1, sizeof *longest);
     if (!longest)
@@ -125,7 +125,7 @@ static void fill_mesh(void *context, size_t begin, size_t end) {
     }
 }
 
-// Takes what `from` holds to the end of `to`.
+// Appends the contents of `from` to `to`.
 static bool append(struct flat_array *to, const struct gpu_word *from, uint64_t count) {
     struct gpu_word *words = heap_resize_array(to->words, to->count + count + 1, sizeof *words);
     if (!words)
@@ -225,7 +225,7 @@ static double largest_row(const mat3 *m) {
     return most;
 }
 
-// How much longer a map makes anything at most: the square root of the product of two norms.
+// An upper bound on how much a map lengthens anything: the square root of the product of two norms.
 static double largest_scale(const mat3 *m) {
     mat3 turned;
     for (int i = 0; i < 3; i++)
@@ -297,7 +297,7 @@ static bool add_shade(struct placing *p, uint32_t shade) {
     return true;
 }
 
-// Those of a body's groups; of the body before, where they are the same.
+// Adds the shades of a body's groups; reuses those of the previous body if they are the same.
 static bool add_shades(struct placing *p, const struct scene_body *body, uint32_t *first) {
     const uint32_t last = p->shades.count;
     for (uint32_t i = 0; i < body->group_count; i++)
@@ -313,7 +313,7 @@ static bool add_shades(struct placing *p, const struct scene_body *body, uint32_
     return true;
 }
 
-// The box of an instance, from those of its tree.
+// The box of an instance, from its tree's boxes.
 static void bound(const struct shared_mesh *shared, const affine3 *flat, vec3 *lower, vec3 *upper) {
     *lower = (vec3){INFINITY, INFINITY, INFINITY};
     *upper = (vec3){-INFINITY, -INFINITY, -INFINITY};
@@ -371,7 +371,7 @@ static bool place_body(struct placing *p, uint32_t number, uint32_t shift) {
     return true;
 }
 
-// Instance 0: all that is copied, where it is.
+// Instance 0: everything that is copied, unmoved.
 static void place_copied(struct placing *p, uint32_t root) {
     static const affine3 same = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {0, 0, 0}};
     const struct gpu_entry entry = {.row_x = {1, 0, 0}, .row_y = {0, 1, 0}, .row_z = {0, 0, 1}};
@@ -399,7 +399,7 @@ static uint64_t count_blocks(const struct placing *p, uint32_t shift) {
     return blocks;
 }
 
-// The largest blocks that leave room for all: so the table is short.
+// The largest blocks that leave room for all: they make the table short.
 static uint32_t choose_blocks(const struct placing *p) {
     uint32_t shift = SHIFT_MOST;
     while (shift > 0 && count_blocks(p, shift) << shift > UINT64_C(1) << ITEM_BITS)
@@ -425,7 +425,7 @@ static bool make_tables(struct placing *p) {
             table[k] = i;
     if (p->shades.count)
         memcpy(table + 4 * shades, p->shades.values, p->shades.count * sizeof *table);
-    // Only now it is known where they begin.
+    // Only now is it known where they begin.
     for (uint32_t i = 0; i < count; i++) {
         struct gpu_word *word = all + (size_t)p->words * i + (p->words - 1);
         word->z += (uint32_t)(4 * shades);
@@ -435,7 +435,7 @@ static bool make_tables(struct placing *p) {
 
 // ---- the upper tree
 
-// Instances first, in nodes of their own; then the trees that they lead to, which lie behind.
+// Instances first, in nodes of their own; then the trees that they lead to, which are stored behind.
 static bool make_top(struct placing *p) {
     struct flattening *f = p->f;
     struct flat_scene *out = f->out;
@@ -503,7 +503,7 @@ static enum flatten_fault place_instances(struct flattening *f, struct bvh_item 
     return done ? FLATTEN_DONE : FLATTEN_NO_MEMORY;
 }
 
-// The box of what is copied, from the root of its tree.
+// The box of the copied triangles, from the root of their tree.
 static struct bvh_item copied_item(const struct flattening *f) {
     struct bvh_bounds boxes[BVH_BOUNDS_MOST];
     const struct bvh bvh = {.nodes = f->out->triangle_nodes.words};

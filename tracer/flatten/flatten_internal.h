@@ -14,12 +14,12 @@ enum flatten_fault {
     FLATTEN_NO_MEMORY, // the caller reports it
 };
 
-// A mesh that several bodies show. What lies in TRIANGLES and in the nodes is counted in records.
+// A mesh that several bodies show. Counts in TRIANGLES and in the nodes are in records.
 struct shared_mesh {
     const struct mesh *mesh;
     uint32_t first_use, use_count; // of sharing.uses
     uint32_t instances;
-    uint32_t *copied; // triangles that each instance has for itself, ascending
+    uint32_t *copied; // triangles that each instance has as copies, ascending
     uint32_t copied_count;
     enum flat_reason reason;
     int64_t saved_bytes;
@@ -27,12 +27,12 @@ struct shared_mesh {
     vec3 middle;
     int exponent;
     double farthest;              // largest |coordinate| in mesh space
-    double edge;                  // in mesh space: few are longer
+    double edge;                  // in mesh space: few edges are longer
     uint32_t first_record, count; // of its tree
     uint32_t root;                // of its tree, among all nodes
     bool has_normals;
-    uint32_t normal_base;     // of those that are as the mesh has them
-    struct bvh_bounds *boxes; // which together hold all of it, in the tree's space
+    uint32_t normal_base;     // of the mesh's own normals
+    struct bvh_bounds *boxes; // which together hold the whole mesh, in the tree's space
     uint32_t box_count;
 };
 
@@ -50,10 +50,10 @@ struct flattening {
     const struct scene *scene;
     struct flat_scene *out;
     double factor;           // 2^out->scale_exponent
-    uint32_t triangle_total; // of all bodies, those without area too: what triangle numbers count
+    uint32_t triangle_total; // of all bodies, including those without area: what triangle numbers count
     struct sharing sharing;
-    // What the tree is built over, body by body, without the triangles that have no area. Records are made
-    // when it is there, so that both are never in memory.
+    // The items of the tree, body by body, without the triangles that have no area. Records are made after
+    // the tree is built, so that both are never in memory.
     struct bvh_item *items;
     uint32_t record_total;
     uint32_t item_count;
@@ -61,7 +61,7 @@ struct flattening {
     bool *material_used;     // by index in scene->materials
     uint32_t *coordinates;   // by body: its word of out->paints; 0: it has none
     uint64_t light_features; // FEATURE_ bits that the lights ask for
-    uint64_t media_features; // and the media
+    uint64_t media_features; // FEATURE_ bits that the media ask for
     uint32_t *medium;        // by body: as in its record; NULL: rays need not know what they are inside
 };
 
@@ -69,7 +69,7 @@ struct flattening {
 
 // Numbers the triangles and checks the limits.
 enum flatten_fault flatten_count(struct flattening *f);
-// An extent of all bodies: its power of two is that of the largest |coordinate - origin|, in scene units.
+// The extent of all bodies: its power of two is that of the largest |coordinate - origin|, in scene units.
 enum flatten_fault flatten_extent(const struct flattening *f, double *extent);
 // Fills the spheres' words in IR order, and an item for each.
 void flatten_spheres(struct flattening *f, struct gpu_word *words, struct bvh_item *items);
@@ -78,7 +78,7 @@ uint32_t flatten_group_shade(struct flattening *f, const struct scene_body *body
 // Fills items and item_count with all triangles that are copied.
 enum flatten_fault flatten_triangles(struct flattening *f);
 #define FLATTEN_NO_LEAF UINT32_MAX
-// Fills out->triangles, which is there, as leaf_of says.
+// Fills out->triangles, already allocated, in the order of leaf_of.
 enum flatten_fault flatten_records(struct flattening *f);
 
 // Marks the materials that the body's triangles, or its sphere, show.
@@ -101,7 +101,7 @@ uint64_t flatten_copied(const struct flattening *f);
 
 // ---- flatten_instances.c
 
-// After flatten_triangles and the tree over what is copied: adds the trees of shared meshes to it and one
+// After flatten_triangles and the tree over copied triangles: adds to it the trees of shared meshes and one
 // over all instances, and fills out->instances.
 enum flatten_fault flatten_instances(struct flattening *f);
 
@@ -109,7 +109,7 @@ enum flatten_fault flatten_instances(struct flattening *f);
 
 // Whether the geometry of input->before is that of this scene.
 bool flatten_is_kept(const struct flattening *f);
-// Then: shares it.
+// If so: shares it.
 void flatten_keep(struct flattening *f);
 
 // ---- flatten_media.c
@@ -136,18 +136,18 @@ uint64_t flatten_paint_features(const struct scene_material *material);
 enum flatten_fault flatten_materials(struct flattening *f);
 enum flatten_fault flatten_lights(struct flattening *f);
 enum flatten_fault flatten_background(struct flattening *f);
-// After all others: out->features.
+// Called last: fills out->features.
 void flatten_features(struct flattening *f);
 
 // ---- flat_array.c, and what all share
 
-// How a body comes into flat space, but for the scale: relative to the origin, in scene units.
+// How a body is mapped to flat space, except for the scale: relative to the origin, in scene units.
 static inline affine3 flatten_map(const struct flattening *f, const struct scene_body *body) {
     return transform_relative(body->object_to_world, f->out->origin);
 }
-// More than what rounding can make of a bound by a box's corners.
+// More than the rounding error of a bound from a box's corners.
 #define FLATTEN_BOUND (1 + 0x1p-40)
-// At least the largest |coordinate - origin| of a mesh's vertices, by the corners of its box.
+// An upper bound on |coordinate - origin| of a mesh's vertices, from the corners of its box.
 static inline double flatten_reach(const struct flattening *f, const struct scene_body *body) {
     const affine3 map = flatten_map(f, body);
     const struct mesh *mesh = body->mesh;

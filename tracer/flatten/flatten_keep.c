@@ -1,11 +1,11 @@
-// Geometry of the flat scene of before, shared where nothing that it is made of has changed: of an edited
-// material, light or camera nothing is left to do that grows with the number of triangles.
+// Shares the geometry of the earlier flat scene if nothing that it is made from has changed: after editing a
+// material, light or camera, no remaining work grows with the number of triangles.
 #include "scene/shape.h"
 #include "tracer/flatten/flatten_internal.h"
 
 #include <string.h>
 
-// Records name materials by number, and say whether they have a checker.
+// Records refer to materials by number, and say whether they have a checker.
 static bool shows_same_materials(const struct flattening *f, const struct scene_body *was,
                                  const struct scene_body *is) {
     const struct scene_material *old = f->input->before->scene->materials, *now = f->scene->materials;

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A point light further than this counts as infinitely far away.
+// A point light farther than this counts as infinitely far away.
 #define LIGHT_DISTANCE_MAX FLAT_LENGTH_MAX
 
 enum {
@@ -21,7 +21,7 @@ enum {
 
 // ---- materials
 
-// A number per scene unit as one per flat unit.
+// Converts a number per scene unit to one per flat unit.
 static vec3 per_flat_unit(const struct flattening *f, vec3 value) {
     const vec3 flat = vec3_mul(value, 1 / f->factor);
     return (vec3){fmin(flat.x, SCENE_ABSORPTION_MAX), fmin(flat.y, SCENE_ABSORPTION_MAX),
@@ -51,13 +51,13 @@ enum flatten_fault flatten_materials(struct flattening *f) {
 
 // ---- lights
 
-// Small scenes with falloff have emissions that no float holds; they stay finite.
+// In small scenes falloff gives emissions that no float holds; they stay finite.
 static double emission_bound(double value) {
     return fmin(value, FLT_MAX);
 }
 
-// 1, or what takes a light with an extent to the farthest distance that counts: there a smaller one is seen
-// under the same angle.
+// 1, or the factor that moves a light with an extent to the farthest distance that counts: a smaller light
+// there is seen under the same angle.
 static double nearer(const struct flattening *f, const struct view_light *light) {
     const double distance = vec3_length(vec3_sub(light->position, f->out->origin)) * f->factor;
     const bool is_far = !light->directional && light->extent != VIEW_POINT && distance > LIGHT_DISTANCE_MAX;
@@ -66,7 +66,8 @@ static double nearer(const struct flattening *f, const struct view_light *light)
 
 static struct gpu_light light_record(const struct flattening *f, const struct view_light *light) {
     vec3 from_origin = vec3_sub(light->position, f->out->origin);
-    // A panel that a body shows lies in front of it; of a sphere shaders/light/extent.glsl knows.
+    // A panel that a body shows is moved in front of the body; shaders/light/extent.glsl does this for a
+    // sphere.
     if (light->extent == VIEW_PANEL)
         from_origin = vec3_add(from_origin, vec3_mul(light->outward, light->before_body));
     const double factor = f->factor * nearer(f, light);
@@ -91,7 +92,7 @@ static struct gpu_light light_record(const struct flattening *f, const struct vi
     return record;
 }
 
-// Sizes as large as the distance from which lights count as infinitely far away are as good as any larger.
+// Sizes as large as the distance at which lights count as infinitely far away are as good as any larger one.
 static double length_bound(double value) {
     return fmin(value, LIGHT_DISTANCE_MAX);
 }
@@ -112,8 +113,8 @@ static vec3 bounded(vec3 color) {
     return (vec3){emission_bound(color.x), emission_bound(color.y), emission_bound(color.z)};
 }
 
-// What a place relative to the middle of a panel is multiplied by, for how far it is along the first edge, in
-// halves of it.
+// The vector whose product with a place relative to a panel's middle tells how far it is along the first
+// edge, in half edges.
 static vec3 along_edge(vec3 edge, vec3 other, vec3 outward) {
     const vec3 across = vec3_cross(vec3_unit(other), outward);
     return vec3_mul(across, 2 / vec3_dot(edge, across));
@@ -167,7 +168,7 @@ static bool any_extent(const struct view *view) {
     return any;
 }
 
-// After all that lights are: four numbers to a word.
+// Written after all light data: four numbers per word.
 static bool fill_sky(struct flattening *f) {
     struct flat_scene *out = f->out;
     bool is_black = false;
@@ -285,7 +286,7 @@ static uint64_t used_material_features(const struct flattening *f) {
         if (!f->material_used[i])
             continue;
         uint64_t bits = f->scene->materials[i].features;
-        // Attenuation is where it is inside a body: flatten_media.c.
+        // Attenuation only matters inside a body: flatten_media.c.
         bits &= ~(FEATURE_ATTENUATION | FEATURE_TEXTURES | FEATURE_FOOTPRINT);
         mask |= bits & FEATURE_DIFFUSE ? bits : bits & ~FEATURE_CHECKER;
         mask |= flatten_paint_features(&f->scene->materials[i]);
@@ -301,13 +302,13 @@ static uint64_t ambient_features(struct flattening *f) {
     return FEATURE_AMBIENT | (f->out->occlusion > 0 ? FEATURE_OCCLUSION : 0);
 }
 
-// What only asks for sizes and features has no pixels.
+// A scene that is only asked for sizes and features has no pixels.
 static bool has_pixels(const struct flattening *f) {
     const struct picture *picture = f->scene->background.picture;
     return !picture || picture->pixels;
 }
 
-// What the scene's rows ask for, materials, lights, bodies and background as they turned out.
+// The features that the scene's rows need, given its final materials, lights, bodies and background.
 void flatten_features(struct flattening *f) {
     const uint64_t own = FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_DIFFUSE | FEATURE_SPECULAR |
                          FEATURE_REFLECTION | FEATURE_REFRACTION | FEATURE_CHECKER | FEATURE_SMOOTH |

@@ -15,7 +15,7 @@ static int compare(const void *a, const void *b) {
                                *(const struct scene_material *const *)b);
 }
 
-// The materials of all media, alike ones next to each other.
+// The materials of all media, with alike ones next to each other.
 static const struct scene_material **sorted_fillings(const struct flattening *f, uint32_t *count) {
     const struct scene *scene = f->scene;
     const struct scene_material **all = heap_array((size_t)scene->body_count + 1, sizeof *all);
@@ -28,7 +28,7 @@ static const struct scene_material **sorted_fillings(const struct flattening *f,
     return all;
 }
 
-// By material: the first one, in the scene's order, of those that are alike.
+// By material: the first, in the scene's order, of those that are alike.
 static uint32_t *first_alike(const struct flattening *f) {
     const struct scene_material *materials = f->scene->materials;
     uint32_t count;

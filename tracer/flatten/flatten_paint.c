@@ -16,7 +16,7 @@ enum {
     BODIES_PER_WORD = 4,
 };
 
-// Kinds of texels: a word has two to the power of these.
+// Kinds of texels: a word holds 2^kind texels.
 static const uint32_t kinds[] = {[SCENE_TEXELS_BYTES] = TEXELS_BYTES,
                                  [SCENE_TEXELS_PACKED] = TEXELS_PACKED,
                                  [SCENE_TEXELS_FLOATS] = TEXELS_FLOATS};
@@ -66,7 +66,8 @@ static bool has_coordinates(const struct flattening *f, const struct scene_body 
     return body->mesh && body->mesh->textured && scene_body_has_image(f->scene, body);
 }
 
-// Bodies that show one mesh share its coordinates: the first of them; `number` if there is none before.
+// Bodies that show the same mesh share its coordinates: returns the first such body, or `number` if there is
+// none before it.
 static uint32_t first_with_mesh(const struct flattening *f, uint32_t number) {
     for (uint32_t i = 0; i < number; i++)
         if (f->scene->bodies[i].mesh == f->scene->bodies[number].mesh && f->coordinates[i])
@@ -108,7 +109,7 @@ struct filling {
     struct gpu_word *to;
 };
 
-// Texels [begin, end) of a level, in words that begin with the first of them.
+// Texels [begin, end) of a level, in words starting at the first of them.
 static void put_texels(const struct filling *fill, uint64_t begin, uint64_t end, struct gpu_word *to) {
     const struct scene_level *level = &fill->texture->levels[fill->level];
     *to = (struct gpu_word){0};
@@ -149,14 +150,14 @@ void flat_texels(const struct flat_scene *flat, uint64_t begin, uint64_t end, st
 bool flat_has_texels_of(const struct flat_scene *a, const struct flat_scene *b) {
     const struct scene_texture *s = a->texels.words ? a->scene->textures : NULL,
                                *t = b->texels.words ? b->scene->textures : NULL;
-    // The same pictures, as the store has them, become the same texels.
+    // The same pictures in the store become the same texels.
     for (; s && t; s = s->next, t = t->next)
         if (s->picture != t->picture || s->is_srgb != t->is_srgb)
             return false;
     return s == t && a->paints.count == b->paints.count && a->texels.words == b->texels.words;
 }
 
-// What says where an image's texels are, in the array of all.
+// Fills in where an image's texels are, in the array of all.
 static void fill_texture(const struct scene_texture *t, const struct flat_texture *placed,
                          struct flat_array *paints) {
     for (uint32_t i = 0; placed->table && i < TABLE_WORDS; i++)

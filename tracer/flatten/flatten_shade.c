@@ -1,4 +1,4 @@
-// What shading asks about a body: the coordinates of its checker, and its vertex normals.
+// What shading needs from a body: the coordinates of its checker, and its vertex normals.
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "scene/mesh_use.h"
@@ -75,7 +75,7 @@ static enum flatten_fault list_uses(struct flattening *f, struct mesh_use **uses
         const struct scene_body *body = &f->scene->bodies[i];
         if (!body->smooth || !body->mesh)
             continue;
-        // Instances have those of the first one, as the mesh has them.
+        // Instances have the normals of the first one, as in the mesh.
         struct shared_mesh *shared = flatten_shared(f, i);
         f->out->normal_base[i] = shared && shared->has_normals ? shared->normal_base : (uint32_t)normals;
         if (shared && shared->has_normals)
@@ -95,7 +95,7 @@ static enum flatten_fault list_uses(struct flattening *f, struct mesh_use **uses
 struct turning {
     const struct flattening *f;
     const struct scene_body *body;
-    const vec3 *normals; // of the mesh, three a triangle
+    const vec3 *normals; // of the mesh, three per triangle
     mat3 turn;
     size_t base;
     bool is_shared; // kernels turn them
@@ -106,7 +106,7 @@ static void turn_normals(void *context, size_t begin, size_t end) {
     const uint32_t stride = t->f->out->strides.normal;
     const bool is_double = stride == NORMAL64_WORDS;
     for (size_t i = 3 * begin; i < 3 * end; i++) {
-        // A mirror exchanges the second and third corner.
+        // Mirroring exchanges the second and third corner.
         const size_t k = i % 3, corner = t->body->mirrored && k ? 3 - k : k;
         const struct gpu_normal record = {
             t->is_shared ? t->normals[i] : vec3_unit(mat3_apply(t->turn, t->normals[i - k + corner]))};
@@ -121,7 +121,7 @@ struct mesh_turning {
     struct arena arena;
 };
 
-// The normals of one mesh are made once, for all bodies that show it.
+// The normals of a mesh are made once, for all bodies that show it.
 static void turn_mesh(void *context) {
     struct mesh_turning *m = context;
     const struct mesh *mesh = m->uses[0].mesh;

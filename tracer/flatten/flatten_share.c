@@ -1,9 +1,9 @@
-// Which models become instances of the mesh that they share, and which have triangles of their own.
+// Decides which models become instances of the mesh that they share, and which get triangles of their own.
 //
-// An instance must show what a copy would, bit for bit. Flattening leaves out triangles that rounding leaves
-// without area: those that it might leave out in any instance are copied for each, and where there are too
-// many of them the whole model is. `height` is a triangle's least one: a map by a matrix M shrinks it by no
-// more than |M^-1|, for which the Frobenius norm is a bound.
+// An instance must show what a copy would, bit for bit. Flattening drops triangles that rounding leaves
+// without area: those that it might drop in any instance are copied for each, and if there are too many of
+// them the whole model is copied. `height` is a triangle's least height: a map by a matrix M shrinks it by at
+// most |M^-1|, which the Frobenius norm bounds.
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "core/quantile.h"
@@ -15,19 +15,19 @@
 #include <math.h>
 #include <stdlib.h>
 
-// The rounded corners of a triangle that is higher than this part of the instance's largest coordinate have
-// an area: 64 units of 2^-24 or 2^-53, where 40 are the sum of what moving each corner by half a unit,
+// The rounded corners of a triangle whose height exceeds this fraction of the instance's largest coordinate
+// have an area: 64 units of 2^-24 or 2^-53, where 40 are the sum of what moving each corner by half a unit,
 // subtracting them and the products of their cross product may add up to.
 #define HEIGHT_STEPS   0x1p-18
 #define HEIGHT_STEPS64 0x1p-47
-// More than a COPIED_PART-th of a mesh's triangles is too much to be copied for an instance.
+// More than a COPIED_PART-th of a mesh's triangles is too much to copy for an instance.
 #define COPIED_PART 32
-// How different scales may be in different directions; numbers within these bounds keep all operations on
-// them, the device's among them, away from the ends of what doubles hold.
+// How different scales may be in different directions; with numbers within these bounds all operations on
+// them, also the device's, stay away from the limits of doubles.
 #define UNEVEN_MOST  1e4
 #define NUMBER_LEAST 0x1p-200
 #define NUMBER_MOST  0x1p200
-// What sharing must save on the device (docs/decisions/instances.md).
+// The least that sharing must save on the device (docs/decisions/instances.md).
 #define SAVED_LEAST (INT64_C(32) << 20)
 
 enum {
@@ -103,7 +103,7 @@ static bool is_even(const struct flattening *f, const affine3 *map, double inver
     return is_moderate3(vec3_mul(map->offset, f->factor)) && product <= UNEVEN_MOST;
 }
 
-// At which height triangles of a model may lose their area; negative: the model cannot be an instance.
+// The height at which triangles of a model may lose their area; negative: the model cannot be an instance.
 static double critical_height(const struct flattening *f, const struct scene_body *body) {
     const affine3 map = flatten_map(f, body), back = transform_inverse(map);
     const double inverse = frobenius(&back.linear);
@@ -118,7 +118,7 @@ struct judging {
     double *height, *sorted, *critical; // the last by use
 };
 
-// Marks the models that are instances with 1, and says what keeps the others from it.
+// Marks the models that are instances with 1, and records why the others are not.
 static double choose_models(struct judging *j) {
     struct sharing *sharing = &j->f->sharing;
     struct shared_mesh *shared = j->shared;
@@ -183,7 +183,7 @@ static int64_t word_bytes(uint64_t words) {
     return (int64_t)(words * sizeof(struct gpu_word));
 }
 
-// What a triangle takes that models share, or that is copied beside such ones.
+// The bytes of a triangle that models share, or that is copied next to shared ones.
 static int64_t placed_bytes(bool smooth) {
     return word_bytes(PLACED_WORDS) + (smooth ? 3 * word_bytes(NORMAL64_WORDS) : 0) + NODE_BYTES;
 }
@@ -215,7 +215,7 @@ static void keep_copies(struct flattening *f, struct shared_mesh *shared, enum f
     shared->instances = shared->copied_count = 0;
 }
 
-// Of triangles that are not shared: in a scene with instances their records are larger.
+// For triangles that are not shared: in a scene with instances their records are larger.
 static int64_t lost_bytes(const struct flattening *f) {
     int64_t triangles = f->triangle_total;
     for (uint32_t i = 0; i < f->sharing.mesh_count; i++)
@@ -238,8 +238,8 @@ static void decide(struct flattening *f) {
             keep_copies(f, &sharing->meshes[i], FLAT_REASON_SMALL);
 }
 
-// Without a look at the triangles: whether it would be too little if all models could be instances, or copies
-// are asked for.
+// Decides without looking at the triangles: sharing would save too little even if all models could be
+// instances, or copies are asked for.
 static bool is_decided(struct flattening *f) {
     struct sharing *sharing = &f->sharing;
     int64_t saved = 0;
@@ -264,8 +264,8 @@ static int compare_meshes(const void *a, const void *b) {
     return x->first_use < y->first_use ? -1 : x->first_use > y->first_use;
 }
 
-// Meshes of two models at least, in the order of their first models: while they are sorted `first_use` is
-// that body, after it a place in `uses`.
+// Meshes with at least two models, in the order of their first models: during sorting `first_use` is that
+// body, afterwards a place in `uses`.
 static bool list_meshes(struct flattening *f, const struct mesh_use *uses, uint32_t count) {
     struct sharing *sharing = &f->sharing;
     sharing->meshes = heap_zeroed((size_t)count / 2 + 1, sizeof *sharing->meshes);
@@ -288,7 +288,7 @@ static bool list_meshes(struct flattening *f, const struct mesh_use *uses, uint3
 
 static void order_meshes(struct sharing *sharing) {
     for (uint32_t i = 0; i < sharing->mesh_count; i++) {
-        // The place, kept where no mesh has one yet.
+        // The place, kept here while no mesh has a root yet.
         sharing->meshes[i].root = sharing->meshes[i].first_use;
         sharing->meshes[i].first_use = sharing->uses[sharing->meshes[i].first_use];
     }
@@ -357,13 +357,13 @@ uint64_t flatten_copied(const struct flattening *f) {
     return sum;
 }
 
-// What is copied, and what is shown in all: a triangle's number must fit.
+// Copied triangles, and all shown ones: a triangle's number must fit.
 static enum flatten_fault check_counts(const struct flattening *f) {
     const uint64_t most = f->input->limits->value[LIMIT_SCENE_TRIANGLES], copied = flatten_copied(f);
     const struct limit_info *info = limit_info(LIMIT_SCENE_TRIANGLES);
     if (copied <= most)
         return FLATTEN_DONE;
-    uint32_t own = 0; // the first that has some
+    uint32_t own = 0; // the first body that has some
     while (own + 1 < f->scene->body_count && (!f->scene->bodies[own].mesh || flatten_shared(f, own)))
         own++;
     diag_add(f->input->sink, DIAG_LIMIT, scene_body_label(f->scene, &f->scene->bodies[own]),

@@ -18,12 +18,12 @@ enum {
 
 // ---- triangles
 
-// What one piece of a body's triangles has.
+// What is measured in one piece of a body's triangles.
 struct triangle_least {
     struct precision_measure edge, height;
 };
 
-// Whether the camera is above the triangle rather than beside it: roughly, by its box.
+// Whether the camera is above the triangle rather than beside it: roughly, by the triangle's box.
 static bool is_above(vec3 camera, const vec3 corners[3], double margin) {
     vec3 lower = vec3_min(corners[0], vec3_min(corners[1], corners[2]));
     vec3 upper = vec3_max(corners[0], vec3_max(corners[1], corners[2]));
@@ -82,7 +82,7 @@ static void measure_piece(void *context, size_t begin, size_t end) {
     measure_range(m, begin, end, &m->pieces[begin / PIECE]);
 }
 
-// Those of the pieces that bounds do not decide.
+// Measures the pieces that bounds do not decide.
 static void measure_chosen(void *context, size_t begin, size_t end) {
     const struct measuring *m = context;
     for (size_t i = begin; i < end; i++) {
@@ -97,7 +97,7 @@ static void keep_triangles(struct precision_report *out, const struct triangle_l
     precision_keep(&out->least[PRECISION_HEIGHT], &least->height);
 }
 
-// Which pieces of a mesh that was seen before may have something that counts. false: no memory.
+// Which pieces of a mesh seen before may have something that counts. false: no memory.
 static bool choose(struct measuring *m, const struct precision_pieces *known,
                    const struct precision_report *found) {
     const struct precision_view view = precision_view_of(m->input, &m->map, m->body->mesh);
@@ -164,7 +164,7 @@ static bool find_seen(struct seen *seen, const struct mesh *mesh, const struct p
 
 // ---- bodies
 
-// How large a body is, as far as its size represents details that nothing else measures.
+// How large a body is, if its size stands for details that nothing else measures.
 static void note_size(const struct scene_body *body, const struct precision_body *measured,
                       struct precision_report *out) {
     struct precision_measure size = {.length = body->radius,
@@ -179,7 +179,7 @@ static void note_size(const struct scene_body *body, const struct precision_body
         precision_note(&out->least[PRECISION_SIZE], size);
 }
 
-// false: no memory. *any: there is something of the body.
+// false: no memory. *any: the body has something to measure.
 static bool measure_body(const struct flat_input *input, uint32_t number, struct seen *seen,
                          struct precision_report *out, struct precision_body *measured, bool *any) {
     const struct precision_pieces *known = NULL;

@@ -1,23 +1,24 @@
 // Whether single precision suffices for a scene, from its numbers alone (docs/decisions/precision.md).
 //
-// A coordinate at distance D from the flat scene's origin is rounded to steps of D * 2^-24, and what is about
-// as small as a step is lost: so each feature is measured in steps at its place, and needs PRECISION_STEPS of
-// them. Measured: the shortest edge of every triangle; the size of every model and sphere; the gaps between
-// bodies, by their boxes, exact among spheres and parallelograms; the camera's height above large triangles.
-// Not measured: gaps inside a model other than along an edge (its size represents them: gaps down to 1e-4 of
-// it), and gaps between bodies whose boxes overlap, one of which is a model. All in double precision, in
-// scene units. Input: as flatten. Errors: false when memory ends. Thread safety: pure.
+// A coordinate at distance D from the flat scene's origin is rounded to steps of D * 2^-24, and details about
+// as small as a step are lost: so each feature is measured in steps at its place, and needs PRECISION_STEPS
+// of them. Measured: the shortest edge of every triangle; the size of every model and sphere; the gaps
+// between bodies, by their boxes, exact among spheres and parallelograms; the camera's height above large
+// triangles. Not measured: gaps inside a model other than along an edge (its size represents them: gaps down
+// to 1e-4 of it), and gaps between bodies whose boxes overlap, one of which is a model. All in double
+// precision, in scene units. Input: as flatten. Errors: false when memory ends. Thread safety: pure.
 #ifndef GLINT_TRACER_FLATTEN_PRECISION_H
 #define GLINT_TRACER_FLATTEN_PRECISION_H
 
 #include "tracer/flatten/flatten.h"
 
 #define PRECISION_STEPS 16.0
-// What single precision resolves of other features, as parts of them that need PRECISION_STEPS.
+// How finely single precision must resolve other features, as the fraction of them that needs
+// PRECISION_STEPS.
 #define PRECISION_MODEL_PART  1e-4 // of a model's size: its finest gaps
 #define PRECISION_SPHERE_PART 0.01 // of a sphere's radius: keeps 99.9 % of the pixels within 1/255
 #define PRECISION_HEIGHT_PART                                                                                \
-    (1.0 / 32) // of the camera's height above a triangle, against the triangle's reach
+    (1.0 / 32) // of the camera's height above a triangle, relative to the triangle's reach
 
 enum precision_feature {
     PRECISION_EDGE,   // shortest edge of a triangle
@@ -30,18 +31,18 @@ enum precision_feature {
 struct precision_measure {
     bool any;
     double length;        // of the feature, scene units
-    double part;          // of it that must be resolved
+    double part;          // fraction of it that must be resolved
     double distance;      // at which it lies: largest coordinate difference to the origin
     double steps;         // length * part / (distance * 2^-24)
-    uint32_t body, other; // in IR order; `other` of a gap alone
-    uint32_t triangle;    // of the body, in file order; of edges and heights alone
+    uint32_t body, other; // in IR order; `other` only for a gap
+    uint32_t triangle;    // of the body, in file order; only for edges and heights
 };
 
 struct precision_report {
-    struct precision_measure least[PRECISION_FEATURES]; // of each kind the one of least steps
-    enum precision_feature decides;                     // the kind of least steps
-    bool suffices;                                      // single precision does
-    bool all_pairs; // false: there are too many bodies close together to look at all pairs
+    struct precision_measure least[PRECISION_FEATURES]; // for each kind the one with the fewest steps
+    enum precision_feature decides;                     // the kind with the fewest steps
+    bool suffices;                                      // single precision is enough
+    bool all_pairs; // false: too many bodies are close together to look at all pairs
 };
 
 bool precision_measure(const struct flat_input *input, struct precision_report *out);

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define CLOSE 0x1p-12 // of a distance: larger gaps decide nothing
+#define CLOSE 0x1p-12 // relative to a distance: larger gaps decide nothing
 
 enum {
     MOST_PAIRS = 1 << 22,
@@ -43,7 +43,7 @@ static struct plane plane_of(const struct scene_body *body) {
     return p;
 }
 
-// Coordinates s, t of a point's foot along the edges from the corner.
+// Coordinates s, t, along the edges from the corner, of a point's projection.
 static void foot(const struct plane *p, vec3 point, double *s, double *t) {
     vec3 w = vec3_sub(point, p->corner);
     vec3 n = vec3_cross(p->u, p->v);
@@ -63,7 +63,7 @@ static double sphere_to_parallelogram(const struct scene_body *sphere, const str
     return gap > 0 ? gap : NAN;
 }
 
-// Of parallel ones that face each other.
+// Between parallel parallelograms that face each other.
 static double between_parallelograms(const struct scene_body *a, const struct scene_body *b) {
     struct plane p = plane_of(a), q = plane_of(b);
     if (vec3_length(vec3_cross(p.normal, q.normal)) > 1e-6)
@@ -99,8 +99,8 @@ static double gap_of(const struct scene *scene, const struct precision_body *a,
     return isnan(exact) ? between_boxes(a, b) : exact;
 }
 
-// Of a parallelogram: the error in t of a hit grows with its triangles. 0 for other bodies, which come close
-// to one around a point alone.
+// For a parallelogram: the error in t of a hit grows with its triangles. 0 for other bodies, which come close
+// to another only around a point.
 static double longest_diagonal(const struct scene_body *body) {
     if (!shape_traits(body->shape).is_flat)
         return 0;
@@ -133,7 +133,7 @@ static void measure_pair(const struct flat_input *input, const struct precision_
 // ---- the sweep
 
 struct swept {
-    double begin, end; // along the axis, the end with what is close
+    double begin, end; // along the axis; the end includes what is close
     uint32_t index;
 };
 

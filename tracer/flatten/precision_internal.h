@@ -1,4 +1,4 @@
-// Inside of precision.h: what precision.c, precision_gaps.c and precision_least.c share.
+// Internal to precision.h: what precision.c, precision_gaps.c and precision_least.c share.
 #ifndef GLINT_TRACER_FLATTEN_PRECISION_INTERNAL_H
 #define GLINT_TRACER_FLATTEN_PRECISION_INTERNAL_H
 
@@ -12,15 +12,15 @@ struct precision_body {
     uint32_t body;     // in IR order
 };
 
-// Below this a gap or height does not count: what touches in the file is separated by the rounding of
-// numbers, of those of the scene's coordinates and of `distance`, which is relative to the origin.
+// Below this a gap or height does not count: bodies that touch in the file are separated by the rounding of
+// the scene's coordinates and of `distance`, which is relative to the origin.
 static inline double precision_contact(const struct flat_input *input, double distance) {
     return fmax(0x1p-40 * distance, 0x1p-50 * (vec3_max_abs(input->origin) + distance));
 }
 
-// Keeps the lesser; equal ones by body and triangle, so that the result knows nothing of threads.
+// Keeps the smaller; ties are broken by body and triangle, so that the result does not depend on threads.
 void precision_keep(struct precision_measure *least, const struct precision_measure *found);
-// Fills steps from the rest, and keeps.
+// Computes steps from the other fields, and keeps the measure.
 void precision_note(struct precision_measure *least, struct precision_measure found);
 
 // Gaps between the bodies. false: no memory.
@@ -34,7 +34,7 @@ enum {
     PRECISION_PIECE = 64 // triangles
 };
 
-// What some triangles of a mesh have, in its space.
+// Measures of some triangles of a mesh, in its space.
 struct precision_piece {
     vec3 lower, upper;
     double shortest, longest; // of their edges; triangles with an edge of length 0 do not count
@@ -50,7 +50,7 @@ struct precision_pieces {
 // How a body shows a mesh, with room for rounding.
 struct precision_view {
     affine3 map;        // relative to the origin
-    double least, most; // what lengths are multiplied by
+    double least, most; // by which lengths are multiplied
     double slack;       // of coordinates
     vec3 camera;        // relative to the origin
 };
@@ -60,7 +60,7 @@ bool precision_pieces_make(const struct mesh *mesh, struct precision_pieces *out
 void precision_pieces_finish(struct precision_pieces *pieces);
 struct precision_view precision_view_of(const struct flat_input *input, const affine3 *map,
                                         const struct mesh *mesh);
-// Whether no triangle of the piece can have a shorter edge, or lie lower below the camera, than what was
+// Whether no triangle of the piece can have a shorter edge, or a lower height below the camera, than what was
 // found.
 bool precision_is_beyond(const struct precision_view *view, const struct precision_piece *piece,
                          const struct precision_report *found);

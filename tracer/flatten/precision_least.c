@@ -1,4 +1,4 @@
-// The least of what is measured, whatever order it is found in.
+// The least of the measures, regardless of the order in which they are found.
 #include "tracer/flatten/precision_internal.h"
 
 #include <float.h>

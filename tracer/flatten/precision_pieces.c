@@ -1,14 +1,14 @@
-// Bounds of what triangles of a mesh have where a body shows it. A map multiplies a length by no less than
-// the root of the least eigenvalue of M^T M and by no more than that of the greatest, which lie within
-// Gershgorin's discs (Golub and Van Loan 2013, theorem 7.2.1); of a model's map, whose columns are
-// perpendicular, these are points.
+// Bounds on the measures of a mesh's triangles where a body shows it. A map multiplies a length by at least
+// the root of the least eigenvalue of M^T M and at most that of the greatest, which lie within Gershgorin's
+// discs (Golub and Van Loan 2013, theorem 7.2.1); for a model's map, whose columns are perpendicular, the
+// discs are points.
 #include "core/heap.h"
 #include "core/parallel.h"
 #include "tracer/flatten/precision_internal.h"
 
 #include <stdlib.h>
 
-// More than what rounding does to a product of a few numbers, and to a sum of coordinates.
+// More than the rounding of a product of a few numbers, and of a sum of coordinates.
 #define ROUNDED 0x1p-40
 #define SLACK   0x1p-46
 
@@ -101,7 +101,7 @@ struct precision_view precision_view_of(const struct flat_input *input, const af
     return view;
 }
 
-// NaN, of a piece without triangles or of numbers too large, leaves it to be looked at.
+// NaN, from a piece without triangles or from numbers too large, means that it must be looked at.
 bool precision_is_beyond(const struct precision_view *view, const struct precision_piece *piece,
                          const struct precision_report *found) {
     const struct precision_measure *edges = &found->least[PRECISION_EDGE],

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// lavapipe's compiler makes a variant of a kernel by size class of a texel buffer; sizes of one class
-// share it (measured), and the odd 256 bytes avoid its power-of-two paths.
+// lavapipe's compiler makes a variant of a kernel per size class of a texel buffer; sizes of one class share
+// it (measured), and the odd 256 bytes avoid its power-of-two paths.
 static const uint64_t TEXEL_QUANTUM = 65536, TEXEL_ODD = 256;
 // Staged copies go in pieces of at most this size.
 static const uint64_t STAGING_BYTES = 16u << 20;

@@ -25,7 +25,7 @@ static bool is_number(const char *text) {
     return *text != 0;
 }
 
-// `count` where nothing fits.
+// Returns `count` if nothing fits.
 static uint32_t choose(const char *wanted, const struct gpu_device_info *infos, uint32_t count) {
     const bool any = !wanted || !*wanted, numbered = !any && is_number(wanted);
     const unsigned long number = numbered ? strtoul(wanted, NULL, 10) : 0;

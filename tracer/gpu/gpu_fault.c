@@ -1,4 +1,4 @@
-// What went wrong on a device: the status and the words of the call that failed last.
+// What went wrong on a device: the status and message of the last failed call.
 #include "core/heap.h"
 #include "tracer/gpu/gpu_private.h"
 
@@ -57,7 +57,7 @@ static VKAPI_ATTR void VKAPI_CALL keep_device(VkDevice device, const VkAllocatio
     (void)memory;
 }
 
-// Whoever destroys something asks this table for the function.
+// Whoever destroys something looks up the function in this table.
 static void keep_all(struct gpu *gpu) {
 #define EXCHANGE(call, type) gpu->vk.call = keep_##call;
     EACH_OBJECT(EXCHANGE)

@@ -36,7 +36,7 @@ static bool has_validation(void) {
     return found;
 }
 
-// What the system had no memory for, it could not open either.
+// A library also fails to open if the system has no memory for it.
 static bool open_loader(void) {
     if (volkInitialize() == VK_SUCCESS)
         return true;
@@ -176,7 +176,7 @@ static bool can_compute(VkPhysicalDevice physical) {
     return properties.apiVersion >= VK_API_VERSION_1_1 && gpu_compute_family(physical) != UINT32_MAX;
 }
 
-// All that the loader knows.
+// All devices that the loader knows.
 static enum gpu_status list_all(const struct gpu_instance *instance, VkPhysicalDevice **handles,
                                 uint32_t *count, char *error) {
     *handles = NULL;

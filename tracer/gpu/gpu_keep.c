@@ -1,5 +1,5 @@
-// Compiled kernels from run to run, through Vulkan's pipeline caches: one for each kernel and its constants,
-// so that entries never grow and two programs that write at once write the same.
+// Keeps compiled kernels between runs, through Vulkan's pipeline caches: one for each kernel and its
+// constants, so entries never grow, and two programs that write at once write the same.
 //
 // A CPU device is left out: lavapipe's cache holds nothing but its header, and Mesa keeps compiled code
 // itself.
@@ -9,7 +9,7 @@
 
 #include <stdlib.h>
 
-// All that a driver may take for another kernel or another device.
+// Everything by which a driver may distinguish kernels or devices.
 static void key_of(const struct gpu *gpu, const struct gpu_pipeline *wanted, const uint32_t *spirv,
                    size_t words, uint64_t key[2]) {
     const VkPhysicalDeviceProperties *p = &gpu->properties;

@@ -1,13 +1,13 @@
-// Memory that the Vulkan loader and the driver ask glint for: where it ends, the program learns that at once,
-// and not as a driver that cannot be found.
+// Memory that the Vulkan loader and the driver request from glint: if it runs out, the program learns that at
+// once, and not as a driver that cannot be found.
 #include "core/heap.h"
 #include "tracer/gpu/gpu_private.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-// Drivers ask for nothing, too, and expect a place. Before each piece: what the heap gave, and how much was
-// asked for.
+// Drivers also request zero bytes and expect an address. In front of each piece: what the heap returned, and
+// how much was requested.
 struct piece {
     void *given;
     size_t size;

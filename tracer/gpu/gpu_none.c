@@ -1,5 +1,5 @@
-// The devices of a program that is built without them (GLINT_DEVICE=OFF): there are none. What takes a gpu is
-// never called, because no gpu is ever made; it fails as on a device that does not answer.
+// The devices of a program that is built without them (GLINT_DEVICE=OFF): there are none. Functions that take
+// a gpu are never called, because no gpu is ever made; they fail as on a device that does not answer.
 #include "tracer/gpu/gpu_screen.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-// Compiled kernels, which a gpu keeps: another scene of the same features compiles nothing anew.
+// Compiled kernels, which a gpu keeps: another scene with the same features compiles nothing.
 #include "shaders/kernel.h"
 
 #include "core/heap.h"
@@ -14,7 +14,8 @@ enum {
     DOUBLE_BITS = 64,
 };
 
-// Whether an instruction asks for what the device does not know: one width of floats, or all of it.
+// Whether an instruction requests something that the device does not support: one width of floats, or the
+// whole feature.
 static bool is_unknown(const struct gpu *gpu, const uint32_t *instruction) {
     static const char extension[] = "SPV_KHR_float_controls";
     const bool none = !gpu->preserves_nan && !gpu->preserves_nan64;
@@ -31,7 +32,7 @@ static bool is_unknown(const struct gpu *gpu, const uint32_t *instruction) {
     }
 }
 
-// Takes out of a module what it asks for and the device does not know; returns the number of words left.
+// Removes from a module the requests that the device does not support; returns the number of words left.
 static size_t drop_unknown(const struct gpu *gpu, uint32_t *spirv, size_t words) {
     size_t count = SPIRV_HEADER_WORDS;
     for (size_t at = SPIRV_HEADER_WORDS, length; at < words; at += length) {
@@ -123,7 +124,7 @@ static bool create_pipeline(struct gpu *gpu, struct gpu_pipeline *made,
     return gpu_check(gpu, result, "vkCreateComputePipelines");
 }
 
-// What a source asks for, compared with `made`.
+// Describes the pipeline that a source needs, to compare with `made`.
 static void describe(const struct gpu_program_source *source, struct gpu_pipeline *made) {
     made->kernel = source->kernel;
     made->constant_count = source->constant_count;
@@ -147,7 +148,7 @@ static void destroy(struct gpu *gpu, struct gpu_pipeline *pipeline) {
     free(pipeline);
 }
 
-// Takes out of the list what was made before and fits; NULL: nothing.
+// Removes a matching pipeline from the list; NULL: none matches.
 static struct gpu_pipeline *take(struct gpu *gpu, const struct gpu_pipeline *wanted) {
     for (struct gpu_pipeline **at = &gpu->pipelines; *at; at = &(*at)->next)
         if (is_same(*at, wanted)) {
@@ -158,7 +159,7 @@ static struct gpu_pipeline *take(struct gpu *gpu, const struct gpu_pipeline *wan
     return NULL;
 }
 
-// What is idle for longest goes.
+// Drops the pipeline that has been idle longest.
 static void drop_idle(struct gpu *gpu) {
     uint32_t idle = 0;
     for (struct gpu_pipeline **at = &gpu->pipelines; *at;) {

@@ -6,7 +6,7 @@
 
 #include <volk.h>
 
-// A Vulkan instance with what belongs to it: to open a device, or for the list of devices alone.
+// A Vulkan instance with its resources: to open a device, or only to list devices.
 struct gpu_instance {
     VkInstance handle;
     VkDebugUtilsMessengerEXT messenger;
@@ -38,8 +38,8 @@ struct gpu {
     struct gpu_pipeline *pipelines; // all of them, the one used last first
     uint32_t pipelines_made;
     bool recording, submitted, timed;
-    bool compiling;             // what was submitted touches no buffer
-    bool stuck;                 // what was submitted may run for ever: all that it uses is kept
+    bool compiling;             // the submitted work touches no buffer
+    bool stuck;                 // the submitted work may run for ever: all that it uses is kept
     uint32_t recorded;          // dispatches since the recording began
     struct gpu_buffer *staging; // grown as needed; NULL at first
     enum gpu_status status;
@@ -61,7 +61,7 @@ enum {
     GPU_PIPELINES_IDLE = 64 // kept although no program uses them
 };
 
-// A compiled kernel: what programs of the same kernel, constants and kinds of buffers share.
+// A compiled kernel: shared by programs with the same kernel, constants and kinds of buffers.
 struct gpu_pipeline {
     struct gpu_pipeline *next; // in the order in which they were used last
     const struct kernel *kernel;
@@ -83,8 +83,8 @@ struct gpu_program {
 // `options` NULL: without validation and screen.
 enum gpu_status gpu_instance_create(const struct gpu_options *options, struct gpu_instance *out, char *error);
 void gpu_instance_finish(struct gpu_instance *instance);
-// Devices that can compute, in the loader's order, and their descriptions; the caller frees both, whatever
-// comes. GPU_OK: *count, of at least one. Else `error` gets text.
+// Devices that can compute, in the loader's order, and their descriptions; the caller frees both in any case.
+// GPU_OK: *count is at least one. Else `error` gets text.
 enum gpu_status gpu_instance_devices(const struct gpu_instance *instance, VkPhysicalDevice **handles,
                                      struct gpu_device_info **infos, uint32_t *count, char *error);
 // Family of a queue that computes; UINT32_MAX where there is none.
@@ -92,28 +92,28 @@ uint32_t gpu_compute_family(VkPhysicalDevice physical);
 
 // ---- gpu_memory.c
 
-// For what is created with the instance; destroyed with the same.
+// For objects created with the instance; destroyed with the same callbacks.
 extern const VkAllocationCallbacks gpu_memory;
 
 // ---- gpu_fault.c
 
-// Notes a failed call; returns true where `result` is a success.
+// Notes a failed call; returns true if `result` is a success.
 bool gpu_check(struct gpu *gpu, VkResult result, const char *call);
 void gpu_fail(struct gpu *gpu, enum gpu_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-// After a failure with work in flight: waits until the device does nothing more. Where that fails too,
-// nothing that the work may use is destroyed from then on; the end of the process frees it.
+// After a failure with work in flight: waits until the device is idle. If that fails too, nothing that the
+// work may use is destroyed from then on; the end of the process frees it.
 void gpu_settle(struct gpu *gpu);
 
 // ---- gpu_prune.c
 
-// Takes out of a module of `*words` words what the source's constants switch off: blocks, and functions that
-// nobody calls then. What it computes stays the same; the constants still have to be given. false: no memory.
+// Removes from a module of `*words` words what the source's constants switch off: blocks, and functions that
+// are then never called. The result is the same; the constants must still be given. false: no memory.
 bool gpu_prune(const struct gpu_program_source *source, uint32_t *spirv, size_t *words);
 
 // ---- gpu_pipeline.c
 
-// The kernel compiled for the source, now or before; NULL on failure. Goes back by gpu_pipeline_leave.
+// The kernel compiled for the source, now or before; NULL on failure. Return it with gpu_pipeline_leave.
 struct gpu_pipeline *gpu_pipeline_use(struct gpu *gpu, const struct gpu_program_source *source);
 void gpu_pipeline_leave(struct gpu *gpu, struct gpu_pipeline *pipeline); // NULL does nothing
 void gpu_pipelines_destroy(struct gpu *gpu);                             // no program may be left
@@ -126,8 +126,8 @@ bool gpu_can_tell(VkPhysicalDevice physical);
 
 // ---- gpu_keep.c
 
-// A cache for one kernel, with what an earlier run kept of it; the gpu's own where nothing is kept. `spirv`
-// is what is compiled.
+// A cache for one kernel, with what an earlier run kept; the gpu's own cache if nothing is kept. `spirv` is
+// the code to compile.
 struct gpu_kept {
     VkPipelineCache cache;
     uint64_t key[2];
@@ -135,14 +135,14 @@ struct gpu_kept {
 };
 struct gpu_kept gpu_keep_begin(struct gpu *gpu, const struct gpu_pipeline *wanted, const uint32_t *spirv,
                                size_t words);
-// After compiling, which went well or did not.
+// After compiling, whether it succeeded or not.
 void gpu_keep_end(struct gpu *gpu, const struct gpu_kept *kept, bool compiled);
 
 // ---- gpu_run.c
 
-// Begins a recording unless one is under way.
+// Begins a recording unless one is in progress.
 bool gpu_record(struct gpu *gpu);
-// Records a copy and the order of what comes after it. A recording is under way.
+// Records a copy and the barrier for what comes after it. A recording is in progress.
 void gpu_record_copy(struct gpu *gpu, VkBuffer from, VkBuffer to, VkBufferCopy region);
 
 #endif

@@ -1,7 +1,7 @@
-// What a kernel's specialization constants switch off is taken out of its module before a driver reads it.
-// lavapipe's compiler joins all functions into one before it looks at what a condition decides; NVIDIA's
-// makes a kernel that takes 4 to 7 % longer where it has to find out by itself. Reference: SPIR-V
-// Specification 1.6, sections 2.11 and 3.
+// Removes what a kernel's specialization constants switch off from its module before a driver reads it.
+// lavapipe's compiler inlines all functions into one before it evaluates conditions; NVIDIA's makes a kernel
+// that takes 4 to 7 % longer if it has to find out by itself. Reference: SPIR-V Specification 1.6, sections
+// 2.11 and 3.
 #include "core/heap.h"
 #include "tracer/gpu/gpu_private.h"
 
@@ -17,19 +17,19 @@ enum {
 enum block_state {
     BLOCK_DEAD,   // nothing leads there
     BLOCK_MERGE,  // nothing leads there, but a selection or a loop names it as its end
-    BLOCK_REPEAT, // the same as the part of a loop that goes back to `header`
+    BLOCK_REPEAT, // the same as the continue part of the loop whose header is `header`
     BLOCK_LIVE,
 };
 
-// What is known of an id.
+// What is known about an id.
 struct prune_id {
     bool is_known; // a scalar of 32 bits, or a truth value: `value`
     uint32_t value;
-    size_t function; // where it begins; 0: the id is none
+    size_t function; // where its function begins; 0: the id is none
     bool is_called;
     bool is_kept;    // a word after the type of an instruction that is left: where a result is
     uint8_t block;   // enum block_state, of a label
-    uint32_t taken;  // of a label: the only one that it goes on to; 0: all that it names
+    uint32_t taken;  // of a label: the only one that it continues to; 0: all that it names
     uint32_t header; // of BLOCK_REPEAT
     uint32_t spec;   // SpecId + 1; 0: none
     bool is_seen;    // of a label: its block was looked at
@@ -40,7 +40,7 @@ struct prune {
     size_t count;
     struct prune_id *ids;
     const struct gpu_program_source *source;
-    bool is_odd; // a block comes before one that leads there: all is left as it is
+    bool is_odd; // a block comes before one that leads to it: everything is left as it is
 };
 
 static uint32_t length_of(const uint32_t *i) {
@@ -56,7 +56,7 @@ static void know(struct prune *p, uint32_t id, uint32_t value) {
     p->ids[id].value = value;
 }
 
-// The result of an operation whose operands are ids, as far as these are known.
+// The result of an operation whose operands are ids, where these are known.
 static void compute(struct prune *p, uint32_t result, uint32_t opcode, const uint32_t *operands) {
     const struct prune_id *a = &p->ids[operands[0]];
     const struct prune_id *b = opcode == SpvOpLogicalNot ? a : &p->ids[operands[1]];
@@ -91,7 +91,7 @@ static void know_constant(struct prune *p, const uint32_t *i, uint32_t value) {
     know(p, i[2], value);
 }
 
-// What comes before the functions.
+// Reads what comes before the functions.
 static void take_global(struct prune *p, const uint32_t *i) {
     switch (opcode_of(i)) {
     case SpvOpDecorate:
@@ -127,7 +127,7 @@ static bool is_edge(const struct prune *p, uint32_t from, uint32_t to) {
     return block->block == BLOCK_LIVE && (block->taken == 0 || block->taken == to);
 }
 
-// Known if it is the same from all blocks that lead there, and each of these was looked at.
+// Known if it is the same from all blocks that lead to the label, and all of these were looked at.
 static void compute_phi(struct prune *p, const uint32_t *i, uint32_t label) {
     bool any = false;
     uint32_t value = 0;
@@ -152,7 +152,7 @@ static void name_block(struct prune *p, uint32_t label, enum block_state state) 
         p->ids[label].block = (uint8_t)state;
 }
 
-// Where a block goes on.
+// Where a block continues.
 static void lead(struct prune *p, const uint32_t *i, uint32_t label) {
     switch (opcode_of(i)) {
     case SpvOpBranch:
@@ -200,7 +200,7 @@ static void look_at(struct prune *p, const uint32_t *i, uint32_t label) {
     }
 }
 
-// A block comes after that which dominates it, so one look at each is enough.
+// A block comes after the one that dominates it, so one look at each is enough.
 static void look_at_function(struct prune *p, size_t at) {
     uint32_t label = 0;
     for (; opcode_of(p->words + at) != SpvOpFunctionEnd; at += length_of(p->words + at)) {
@@ -216,7 +216,7 @@ static void look_at_function(struct prune *p, size_t at) {
     }
 }
 
-// glslang writes functions before those that call them, or after: until no more are called.
+// glslang writes functions before or after those that call them: repeats until no more are called.
 static void look_at_functions(struct prune *p) {
     for (bool more = true; more;) {
         more = false;
@@ -234,7 +234,7 @@ static void look_at_functions(struct prune *p) {
 // ---- what is left of the module
 
 struct output {
-    uint32_t *words; // those that it is made from: what is left is never longer
+    uint32_t *words; // reuses the module's words: the result is never longer
     size_t count;
 };
 
@@ -282,7 +282,7 @@ static size_t block_length(const uint32_t *label) {
     return (size_t)(end - label);
 }
 
-// A block to which nothing leads, but which may have to be there.
+// A block that nothing leads to, but which may have to exist.
 static void put_empty(const struct prune *p, struct output *out, uint32_t label) {
     const struct prune_id *block = &p->ids[label];
     if (block->block == BLOCK_DEAD)
@@ -318,7 +318,7 @@ static size_t put_functions(struct prune *p, size_t at) {
     return out.count;
 }
 
-// Decorations of results that are gone.
+// Drops the decorations of removed results.
 static size_t drop_decorations(struct prune *p, size_t functions, size_t count) {
     struct output out = {p->words, HEADER_WORDS};
     for (size_t at = HEADER_WORDS, length; at < functions; at += length) {

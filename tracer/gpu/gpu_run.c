@@ -14,7 +14,7 @@ bool gpu_record(struct gpu *gpu) {
     return true;
 }
 
-// Between what this stage writes and all that comes after it: kernels, transfers, and the host's reads.
+// A barrier between this stage's writes and everything after it: kernels, transfers, and the host's reads.
 static void order(struct gpu *gpu, VkPipelineStageFlags stage, VkAccessFlags writes) {
     const VkMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
                                      .srcAccessMask = writes,
@@ -33,7 +33,8 @@ bool gpu_dispatch_beside(struct gpu *gpu, struct gpu_program *program, uint32_t 
         return false;
     if (gpu->recorded++ == 0) {
         gpu->vk.vkCmdResetQueryPool(gpu->commands, gpu->queries, 0, 1);
-        // When what was recorded before is done: copies and clears are not the dispatches' time either.
+        // After what was recorded before is done: the dispatches' time does not include copies and clears
+        // either.
         gpu->vk.vkCmdWriteTimestamp(gpu->commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, gpu->queries, 0);
     }
     gpu->vk.vkCmdBindPipeline(gpu->commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->compiled->pipeline);
@@ -50,7 +51,7 @@ bool gpu_dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t groups_
                   const void *push) {
     if (!gpu_dispatch_beside(gpu, program, groups_x, groups_y, push))
         return false;
-    // Of the last dispatch it stays: copies after it are not the dispatches' time.
+    // The last dispatch's timestamp stays: the dispatches' time does not include copies after it.
     gpu->vk.vkCmdResetQueryPool(gpu->commands, gpu->queries, 1, 1);
     gpu->vk.vkCmdWriteTimestamp(gpu->commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, gpu->queries, 1);
     order(gpu, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT);
@@ -87,7 +88,7 @@ bool gpu_submit(struct gpu *gpu) {
     VkSubmitInfo submit = {
         .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &gpu->commands};
     if (!gpu_check(gpu, gpu->vk.vkQueueSubmit(gpu->queue, 1, &submit, gpu->fence), "vkQueueSubmit")) {
-        gpu_settle(gpu); // a device that is lost may have begun
+        gpu_settle(gpu); // a lost device may have begun
         return false;
     }
     gpu->submitted = true;

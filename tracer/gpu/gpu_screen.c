@@ -115,14 +115,14 @@ void gpu_screen_destroy(struct gpu *gpu, struct gpu_screen *screen) {
 
 // ---- the chain of images
 
-// GPU_HIDDEN: the window has another size than the pixels.
+// GPU_HIDDEN: the size of the window differs from that of the pixels.
 static enum gpu_shown make_chain(struct gpu *gpu, struct gpu_screen *screen, uint32_t width,
                                  uint32_t height) {
     VkSurfaceCapabilitiesKHR can;
     if (!gpu_check(gpu, vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu->physical, screen->surface, &can),
                    "vkGetPhysicalDeviceSurfaceCapabilitiesKHR"))
         return GPU_SHOW_FAILED;
-    // Where the window has no size of its own it takes that of the pixels.
+    // A window without a size of its own takes the size of the pixels.
     const bool is_free = can.currentExtent.width == UINT32_MAX;
     if (!is_free && (can.currentExtent.width != width || can.currentExtent.height != height))
         return GPU_HIDDEN;
@@ -219,7 +219,7 @@ static bool draw(struct gpu *gpu, struct gpu_screen *screen, VkImage image) {
            gpu_check(gpu, gpu->vk.vkResetFences(gpu->device, 1, &screen->done), "vkResetFences");
 }
 
-// Where the window has changed the chain is made anew next time.
+// If the window has changed, the chain is made again next time.
 static enum gpu_shown judge(struct gpu *gpu, struct gpu_screen *screen, VkResult result, const char *call) {
     if (result == VK_SUCCESS)
         return GPU_SHOWN;

@@ -19,12 +19,12 @@ void gpu_screen_destroy(struct gpu *gpu, struct gpu_screen *screen);
 
 enum gpu_shown {
     GPU_SHOWN,
-    GPU_HIDDEN, // the window has no size now, or another one than the pixels: nothing was shown
+    GPU_HIDDEN, // the window has no size now, or a different one from the pixels: nothing was shown
     GPU_SHOW_FAILED,
 };
 
 // Shows width * height pixels of four bytes, blue, green, red and one that does not count, rows from the top.
-// They must be as many as the window has.
+// The size must be the window's.
 enum gpu_shown gpu_screen_show(struct gpu *gpu, struct gpu_screen *screen, const uint8_t *pixels,
                                uint32_t width, uint32_t height);
 

@@ -1,4 +1,4 @@
-// What a driver says of the kernels that it compiled.
+// A driver's figures about the kernels that it compiled.
 #include "core/heap.h"
 #include "tracer/gpu/gpu_private.h"
 

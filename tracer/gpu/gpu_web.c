@@ -1,9 +1,10 @@
-// The graphics processor of a page: WebGPU. What takes time is a promise in JavaScript (web/gpu/library.js);
-// the engine suspends this stack until it is kept, so that each call waits, as with Vulkan.
+// The graphics processor of a web page: WebGPU. Slow operations are promises in JavaScript
+// (web/gpu/library.js); the engine suspends this stack until they are fulfilled, so each call waits, as with
+// Vulkan.
 //
-// A kernel is WGSL, made of the same GLSL (tools/wgsl.sh): JavaScript has it by its name. WebGPU binds few
-// storage buffers: all read-only words and texels are places in one (shaders/web.h). Nobody calls what works
-// side by side.
+// A kernel is WGSL, made from the same GLSL (tools/wgsl.sh): JavaScript has it by its name. WebGPU binds few
+// storage buffers: all read-only words and texels are places in one (shaders/web.h). Functions for parallel
+// work are never called.
 #define _GNU_SOURCE // strcasestr
 #include "core/heap.h"
 #include "shaders/frame.h"
@@ -17,12 +18,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-// web/gpu/library.js. Buffers and programs are numbers from 1 on; 0: it failed, and `why` has the words.
+// web/gpu/library.js. Buffers and programs are numbers from 1 on; 0: it failed, and `why` has the message.
 // Offsets and sizes in bytes, as doubles, which are exact far enough.
 extern int gpuweb_open(char *name, int name_bytes, double *storage_bytes, int *is_cpu);
 extern void gpuweb_close(void);
 extern int gpuweb_buffer(int use, double bytes, char *why);
-extern int gpuweb_grow(int buffer, double bytes, char *why); // keeps what it holds
+extern int gpuweb_grow(int buffer, double bytes, char *why); // keeps the buffer's contents
 extern void gpuweb_drop(int buffer);
 extern void gpuweb_write(int buffer, double offset, const void *data, double bytes);
 extern int gpuweb_read(int buffer, double offset, void *data, double bytes, char *why);
@@ -109,7 +110,7 @@ enum gpu_status gpu_create(const struct gpu_options *options, struct gpu **out, 
         return GPU_NO_DEVICE;
     }
     snprintf(gpu->info.driver, sizeof gpu->info.driver, "WebGPU");
-    gpu->info.kind = is_cpu ? GPU_CPU : GPU_INTEGRATED; // which other kind it is nobody says
+    gpu->info.kind = is_cpu ? GPU_CPU : GPU_INTEGRATED; // the API does not tell which other kind it is
     gpu->info.storage_bytes = gpu->info.memory_bytes = (uint64_t)storage_bytes;
     gpu->info.preferred = true;
     *out = gpu;
@@ -168,7 +169,7 @@ static bool fits(struct gpu *gpu, uint64_t bytes, bool is_words) {
                 is_words ? ": here all of a scene lies in one; use smaller meshes or images" : "");
 }
 
-// Into the first gap that is wide enough, or behind all.
+// Into the first gap that is wide enough, or after all others.
 static bool take_place(struct gpu *gpu, struct gpu_buffer *buffer) {
     struct gpu_buffer **at = &gpu->first;
     uint64_t end = 0;
@@ -309,7 +310,7 @@ struct gpu_program *gpu_program_create(struct gpu *gpu, const struct gpu_program
 
 void gpu_program_destroy(struct gpu *gpu, struct gpu_program *program) {
     (void)gpu;
-    free(program); // JavaScript keeps what is compiled
+    free(program); // JavaScript keeps what was compiled
 }
 
 void gpu_program_bind(struct gpu *gpu, struct gpu_program *program,
@@ -384,7 +385,7 @@ bool gpu_wait(struct gpu *gpu, double *seconds) {
 }
 
 bool gpu_compile(struct gpu *gpu, struct gpu_program *program, const void *push) {
-    (void)gpu, (void)program, (void)push; // it is compiled when it is made
+    (void)gpu, (void)program, (void)push; // it is compiled when it is created
     return true;
 }
 

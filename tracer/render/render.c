@@ -12,10 +12,10 @@
 
 enum {
     SHORT_PATH_RAYS = 4,    // paths of at most these are never saved
-    MANY_LIGHTS = 64,       // more are added with what rounding drops
-    BAND_TILES_MAX = 16384, // a megapixel: progress is reported, and Ctrl-C seen, between bands
-    RUN_TILES = 8,          // few, so that threads with as many runs each have as much work
-    RUNS_MOST = 65536,      // whose products fit 32 bits
+    MANY_LIGHTS = 64,       // with more lights the sum keeps what rounding drops
+    BAND_TILES_MAX = 16384, // a megapixel: between bands, progress is reported and Ctrl-C handled
+    RUN_TILES = 8,          // few, so that threads with equally many runs have equally much work
+    RUNS_MOST = 65536,      // so that products fit 32 bits
     PATH_OUTPUT_BYTES = 16,
     PRIVATE_BRANCHES = 64,   // refracted rays that wait in a GPU's private memory, at most
     PATHS_AT_ONCE = 8 << 20, // enough that the last ones of a frame do not leave a GPU idle for long
@@ -41,7 +41,7 @@ struct render_settings render_settings_of(const struct scene *scene, const struc
     };
 }
 
-// A step through the runs that is coprime to their number and near the golden section of it.
+// A step through the runs that is coprime to their number and near the golden section of that number.
 static uint32_t run_step_of(uint32_t runs) {
     for (uint32_t step = (uint32_t)(runs * 0.618); step > 1; step--) {
         uint32_t a = runs, b = step;
@@ -56,7 +56,7 @@ static uint32_t run_step_of(uint32_t runs) {
     return 1;
 }
 
-// Most bytes of a band's output, and of its path state. A GPU needs a million paths at a time to be busy:
+// The most bytes of a band's output, and of its path state. A GPU needs a million paths at a time to be busy:
 // with 64 MiB the original's scene takes 4.2 ms on an H200, with 1 GiB 0.75 ms. lavapipe's threads wait for
 // each other at the end of a band: at 512x384, one band of 128 MiB takes 53 ms where two of 64 take 69.
 static uint64_t band_bytes(const struct gpu_device_info *device) {
@@ -88,7 +88,7 @@ static bool has_state(const struct renderer *renderer) {
     return renderer->features & FEATURE_SLICES;
 }
 
-// Whether samples are traced at once: where private memory is cheap, and the picture fits into a buffer.
+// Whether samples are traced at once: if private memory is cheap, and the picture fits into a buffer.
 static bool goes_at_once(const struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
     const uint64_t picture = (uint64_t)settings->width * settings->height * PICTURE_PIXEL_BYTES;
@@ -107,14 +107,15 @@ static bool is_long_path(const struct renderer *renderer) {
            renderer->flat->light_count >= SHORT_PATH_RAYS;
 }
 
-// How many samples of a band, and places for the paths that are saved: seldom more than a few are.
+// The number of a band's samples traced at once, and of places for saved paths: usually only a few paths are
+// saved.
 static void plan_at_once(struct renderer *renderer) {
     const uint64_t slots = (uint64_t)renderer->band_tiles * TILE_PIXELS;
     const uint64_t fit = slots < PATHS_AT_ONCE ? PATHS_AT_ONCE / slots : 1;
     renderer->samples_at_once = least_of(least_of(fit, renderer->settings.samples), SAMPLES_AT_ONCE);
     const uint64_t paths = slots * renderer->samples_at_once, bytes = slot_state_bytes(renderer);
     const uint64_t most = bytes ? band_bytes(gpu_info(renderer->gpu)) / bytes : 0;
-    // Few paths have an open ray; other slices end where paths are long.
+    // Few paths have an open ray; other slices end if paths are long.
     const bool is_long = is_long_path(renderer);
     renderer->places = has_state(renderer) ? least_of(is_long ? paths : (paths + 7) / 8, most) : 0;
     if (renderer->settings.places && renderer->settings.places < renderer->places)
@@ -126,7 +127,7 @@ static void plan(struct renderer *renderer) {
     renderer->features = settings->features;
     if (is_long_path(renderer))
         renderer->features |= FEATURE_SLICES;
-    // Paths with a ray that is open may go on in another kernel (render_kernel.c).
+    // Paths with an open ray may continue in another kernel (render_kernel.c).
     if (renderer_pays_apart(renderer))
         renderer->features |= FEATURE_SLICES;
     if (renderer->flat->light_count > MANY_LIGHTS)
@@ -143,7 +144,7 @@ static void plan(struct renderer *renderer) {
         renderer->run_tiles *= 2;
     renderer->runs = (renderer->tiles_x * tiles_y + renderer->run_tiles - 1) / renderer->run_tiles;
     const bool at_once = goes_at_once(renderer);
-    // Private memory of kernels has one size, whatever weights become.
+    // Private memory of kernels has a fixed size, whatever the weights are.
     if (!at_once)
         renderer->path_stack = renderer_most_waiting(renderer, true);
     renderer->run_step = gpu_fetches_texels(renderer->gpu) ? run_step_of(renderer->runs) : 1;
@@ -155,7 +156,7 @@ static void plan(struct renderer *renderer) {
     tiles = device->kind != GPU_CPU || tiles < BAND_TILES_MAX ? tiles : BAND_TILES_MAX;
     if (settings->band_tiles && settings->band_tiles < tiles)
         tiles = settings->band_tiles;
-    // Bands of equal size: a small last one would keep few threads busy.
+    // Bands have equal size: a small last one would keep only few threads busy.
     const uint64_t bands = (renderer->tiles + tiles - 1) / tiles;
     renderer->band_tiles = (uint32_t)((renderer->tiles + bands - 1) / bands);
     renderer->samples_at_once = 0;
@@ -195,7 +196,7 @@ static void put_background(void *context, uint64_t offset, void *to, uint64_t by
     parallel_for((size_t)((offset + bytes) / texel) - texels.first, TEXEL_PIECE, put_texels, &texels);
 }
 
-// Texels are made where the device reads them: there is no second copy of the picture here.
+// Texels are made directly where the device reads them: there is no second copy of the picture here.
 bool renderer_background(struct renderer *renderer) {
     struct flat_scene flat = *renderer->flat;
     const double start = clock_seconds();
@@ -211,7 +212,7 @@ static void put_paints(void *context, uint64_t offset, void *to, uint64_t bytes)
     flat_texels(flat, begin, begin + bytes / sizeof(struct gpu_word), to);
 }
 
-// Texels of images on surfaces have no second copy here either.
+// There is no second copy of the texels of images on surfaces here either.
 bool renderer_upload_array(struct renderer *renderer, const struct renderer_array *array) {
     struct flat_scene flat = *renderer->flat;
     const uint64_t word = sizeof(struct gpu_word), bytes = array->array->count * word;
@@ -313,7 +314,7 @@ static void take_settings(struct renderer *renderer, const struct render_setting
         renderer->settings.workgroup = TILE_PIXELS;
 }
 
-// Stacks never become smaller, so that kernels stay as they are where a tree loses a level.
+// Stacks never shrink, so that kernels stay the same if a tree loses a level.
 static void take_levels(struct renderer *renderer) {
     const struct flat_scene *flat = renderer->flat;
     if (flat->triangle_depth > renderer->triangle_depth)
@@ -348,7 +349,7 @@ void renderer_forget_kernels(struct renderer *renderer) {
         renderer->kept[i] = (struct renderer_kept){0};
     }
     renderer->triangle_depth = renderer->sphere_depth = 0;
-    // No settings are these: the next change makes all anew.
+    // Matches no settings: the next change makes everything anew.
     renderer->settings.width = 0;
 }
 
@@ -365,8 +366,7 @@ static bool compile(struct renderer *renderer) {
 struct renderer *renderer_create(struct gpu *gpu, const struct flat_scene *flat,
                                  const struct render_settings *settings) {
     if (!CLI_HAS_DEVICES)
-        return NULL; // none is ever changed or drawn with: what does is left out of a program linked as a
-                     // whole
+        return NULL; // never changed or drawn with: left out of a program linked as a whole
     struct renderer *renderer = heap_zeroed(1, sizeof *renderer);
     if (!renderer)
         return NULL;

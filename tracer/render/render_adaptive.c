@@ -1,11 +1,11 @@
 // A frame whose pixels end when the error of their displayed colour is small enough.
 //
-// A pixel's samples are taken in rounds, and of each round a quarter goes to each of four groups. The means
-// of the groups differ by what each of them has wrong: the variance of those four, over four, is that of
-// their mean. Points of a good sequence err less together than apart, so that it is rather too large than too
-// small. A pixel goes on where its own error, that of the 3 x 3 pixels around it within its tile, or what is
-// rare in the tile is above the bound: so pixels that look even by chance go on with their neighbours, and
-// what a pixel does depends on nothing outside its tile.
+// A pixel's samples are taken in rounds, and each of four groups gets a quarter of each round. The groups'
+// means differ by their errors: the variance of the four means, over four, is the variance of their mean.
+// Points of a good sequence have a smaller error together than apart, so this estimate is too large rather
+// than too small. A pixel goes on if its own error, that of the 3 x 3 pixels around it within its tile, or
+// the rare error of the tile is above the bound: so pixels that look even by chance go on with their
+// neighbours, and nothing outside its tile affects a pixel.
 #include "core/float_bits.h"
 #include "core/heap.h"
 #include "core/parallel.h"
@@ -21,30 +21,29 @@ enum {
     TILES_A_PIECE = 64,
     COLUMNS = TILE_SIDE,
 };
-// One-sided, of the normal distribution.
+// One-sided, for the normal distribution.
 static const double SURE = 1.645;
 
 // Of a tile's error alone, squared, in the mean of its variances: that is above its own square by
 // 1.645 sqrt(2 + 2 / 3) of it in one of twenty tiles (conclude).
 static const double TILE_SURE = 3.686;
 
-// How many times as large a variance that stands alone is as the mean of its neighbours': at an edge two of
-// eight are like it.
+// How many times the mean of its neighbours' an isolated variance is: at an edge two of eight are like it.
 static const float ALONE = 6;
 
-// Of the pixels that are drawn again: the part, and about how many at most.
+// Pixels that are drawn again: their share, and about how many at most.
 static const double AGAIN_PART = 0.04, AGAIN_MOST = 16384;
 
-// What is known of the pixels of a band, by slot.
+// What is known about the pixels of a band, by slot.
 struct band {
     struct renderer_frame *run;
     uint32_t begin, tiles;
     float (*sums)[GROUPS][3];
-    float *variance;   // of the displayed mean; a mean over the channels
-    uint32_t *samples; // that the pixel has
+    float *variance;   // of the displayed mean, averaged over the channels
+    uint32_t *samples; // that each pixel has
     uint32_t *faults;  // the first word with a fault, as in shaders/frame.h
     uint32_t *list;    // slots of the pixels that go on
-    uint32_t count;    // of them
+    uint32_t count;    // pixels in the list
     float *shown;      // GROUPS colours for each pixel of the list
     bool *goes_on;     // by slot
     uint64_t ended;    // pixels of the frame
@@ -75,8 +74,8 @@ static bool make(struct band *band, uint32_t tiles) {
 
 // ---- rounds
 
-// Samples of a pixel after the round that follows `samples`: twice as many, because parts of the sequence
-// whose lengths are powers of two are the even ones.
+// Samples of a pixel after the round that follows `samples`: twice as many, because the parts of the sequence
+// that cover evenly are those whose lengths are powers of two.
 static uint32_t next_samples(const struct render_settings *settings, uint32_t samples) {
     const uint32_t most = settings->samples / GROUPS * GROUPS;
     const uint32_t least = (settings->least_samples + GROUPS - 1) / GROUPS * GROUPS;
@@ -95,7 +94,7 @@ static void take_sums(struct band *band, int group) {
     }
 }
 
-// Samples first .. end - 1 of the pixels of the list, into a group.
+// Draws samples first .. end - 1 of the listed pixels, into a group.
 static enum render_result draw_group(struct band *band, int group, uint32_t first, uint32_t end) {
     struct renderer *renderer = band->run->renderer;
     for (uint32_t sample = first; sample < end; sample++) {
@@ -151,7 +150,7 @@ static float variance_of(const float *shown) {
     return sum / (3 * (GROUPS - 1) * GROUPS);
 }
 
-// Whether all samples were finite; of another pixel nothing is known.
+// Whether all samples were finite; else nothing is known about the pixel.
 static bool is_sound(const struct band *band, uint32_t slot) {
     return band->faults[slot] >> FAULT_KIND_SHIFT != FAULT_NOT_FINITE;
 }
@@ -175,8 +174,8 @@ static int slot_in_tile(int x, int y) {
     return (x & 1) | (y & 1) << 1 | (x & 2) << 1 | (y & 2) << 2 | (x & 4) << 2 | (y & 4) << 3;
 }
 
-// Of the variances around a pixel, within its tile; pixels outside the picture have NaN, and those that are
-// not finite.
+// Statistics of the variances around a pixel, within its tile; pixels outside the picture, or not finite,
+// have NaN.
 struct around {
     float sum;
     int count;
@@ -193,8 +192,8 @@ static struct around look_around(const float *variance, int x, int y) {
     return around;
 }
 
-// What is bright and seldom hit shows in a few pixels of a tile, and could have in the others as well: the
-// mean over the tile of the variances that stand out alone.
+// Bright and rarely hit things show in a few pixels of a tile, but could have shown in the others as well:
+// the mean over the tile of the isolated variances.
 static float rare_of_tile(const float *variance) {
     float sum = 0;
     int count = 0;
@@ -210,7 +209,7 @@ static float rare_of_tile(const float *variance) {
     return count ? sum / (float)count : 0;
 }
 
-// The greatest one of the pixel's own variance, the mean of those around it, and what is rare in its tile.
+// The largest of the pixel's own variance, the mean of those around it, and the rare error of its tile.
 static float pooled(const float *variance, int x, int y, float rare) {
     const struct around around = look_around(variance, x, y);
     return fmaxf(fmaxf(variance[slot_in_tile(x, y)], around.sum / (float)around.count), rare);
@@ -230,7 +229,7 @@ static void judge_tiles(void *context, size_t begin, size_t end) {
     }
 }
 
-// Those of the list that go on. What is not finite does not get better.
+// Keeps the pixels of the list that go on. Pixels that are not finite do not get better.
 static void shorten_list(struct band *band) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < band->count; i++) {
@@ -278,8 +277,8 @@ static void put_pixel(const struct band *band, uint32_t slot, float *rgb) {
     renderer->estimate.samples[pixel] = band->samples[slot];
 }
 
-// Sums over the tiles: of the variances, and of the squares of a tile's. Sums over the pixels that were
-// drawn again: by how much the square of the error exceeds the variance, and of the squares of that.
+// Sums over the tiles: of the variances, and of the squares of a tile's variance. Sums over the pixels that
+// were drawn again: of the excess of the squared error over the variance, and of the squares of this excess.
 struct total {
     double variance, squares;
     double excess, excess_squares;
@@ -309,11 +308,11 @@ static void end_band(const struct band *band, float *rgb, struct total *total) {
 
 // ---- pixels that are drawn again
 
-// The groups of a pixel are parts of one sequence. What none of its samples met is in none of them, and where
-// a picture is as fine as the sequence, the groups can differ by less than their mean errs: the square of
-// that is up to twice as large as for places that are independent (Owen 1997, "Monte Carlo Variance of
-// Scrambled Net Quadrature"). So some of the pixels, a random part, are drawn again when they have ended,
-// with as many samples of a sequence of their own: half of the square of the difference is that of the error.
+// The groups of a pixel are parts of one sequence. What none of its samples met is missing from all groups,
+// and if a picture is as fine as the sequence, the groups can differ by less than the error of their mean:
+// its square is up to twice as large as for independent places (Owen 1997, "Monte Carlo Variance of Scrambled
+// Net Quadrature"). So some pixels, chosen at random, are drawn again when they have ended, with as many
+// samples from a different sequence: half of the squared difference is the squared error.
 static bool is_drawn_again(const struct render_settings *settings, uint32_t x, uint32_t y) {
     const double part = AGAIN_MOST / ((double)settings->width * settings->height);
     const uint32_t hash = point_hash(point_hash(x + settings->first_x) + y + settings->first_y);
@@ -331,7 +330,7 @@ static void list_again(struct band *band, uint32_t samples) {
     }
 }
 
-// The mean of a pixel's samples into `to`; its sums are cleared.
+// Moves the mean of a pixel's samples to `to`; its sums are cleared.
 static void take_mean(struct band *band, uint32_t slot, float *to) {
     for (int k = 0; k < 3; k++) {
         to[k] = 0;
@@ -356,8 +355,8 @@ static void add_excess(const struct band *band, struct total *total) {
     }
 }
 
-// Pixels that have ended with this number of samples. Numbers from a power of two on that no sample of the
-// picture has are those of another sequence.
+// Draws again pixels that have ended with this number of samples. Sample numbers from a power of two on that
+// the picture does not use belong to another sequence.
 static enum render_result draw_again(struct band *band, uint32_t samples, struct total *total) {
     const struct render_settings *settings = &band->run->renderer->settings;
     const uint32_t bits = points_bits(settings->first_sample, settings->samples);
@@ -419,9 +418,10 @@ static bool make_estimate(struct renderer *renderer) {
     return estimate->error && estimate->samples;
 }
 
-// Neither the errors nor their estimates are independent within a tile, where edges go on; of a tile the
-// square of the error varies by twice its square, and an estimate from four groups by two thirds of it. Where
-// the pixels that were drawn again say more than that, they count: for all, with their own spread.
+// Neither the errors nor their estimates are independent within a tile, because edges continue; a tile's
+// squared error has a variance of twice its square, and an estimate from four groups one of two thirds of it.
+// If the pixels that were drawn again indicate more than that, they count: for all pixels, with their own
+// spread.
 static void conclude(struct renderer *renderer, const struct total *total) {
     const double all = (double)renderer->settings.width * renderer->settings.height;
     const double pixels = fmax(all - renderer->estimate.unknown, 1), again = total->again;

@@ -1,6 +1,6 @@
-// A frame of samples that are traced at once: a GPU is left idle by the last paths of a dispatch, and by each
-// wait for it. So a band's samples share a dispatch, and what follows it (sums, picture, counters, copies to
-// this process) is recorded with it.
+// A frame whose samples are traced at once: the last paths of a dispatch, and each wait for it, leave a GPU
+// idle. So a band's samples share a dispatch, and what follows it (sums, picture, counters, copies to this
+// process) is recorded with it.
 #include "tracer/render/render_private.h"
 
 #include "core/parallel.h"
@@ -18,7 +18,7 @@ static bool create(struct renderer *renderer, uint32_t binding, enum gpu_use use
     return renderer->buffers[binding] != NULL;
 }
 
-// A kernel names these buffers even where it does not trace at once.
+// A kernel refers to these buffers even if it does not trace at once.
 static bool make_named(struct renderer *renderer, uint64_t picture, uint64_t order) {
     return create(renderer, BINDING_SAMPLES, GPU_UNIFORM, sizeof(struct samples_block)) &&
            create(renderer, BINDING_PICTURE, GPU_STORAGE, picture) &&
@@ -51,7 +51,7 @@ void renderer_drop_at_once(struct renderer *renderer) {
     renderer->picture = renderer->counters = NULL;
 }
 
-// The word of each kind's first fault is looked up only where there is one.
+// The word of each kind's first fault is looked up only if there is one.
 static bool note_faults(struct renderer_frame *run) {
     struct renderer *renderer = run->renderer;
     const uint32_t *counters = gpu_contents(renderer->counters);
@@ -91,7 +91,7 @@ static enum render_result draw_samples(struct renderer_frame *run, struct dispat
     if (result != RENDER_DONE)
         return result;
     run->steps_done += block->samples;
-    // Samples that are not the last ones are added up before the next ones take their words.
+    // Unless they are the last ones, samples are added up before the next ones overwrite their words.
     if (!(run->shows ? note_faults(run) : renderer_resolve(run, RESOLVE_ADD)))
         return RENDER_FAILED;
     return renderer_is_wanted(run, 0) ? RENDER_DONE : RENDER_CANCELLED;

@@ -29,7 +29,7 @@ static double cos_degrees(double degrees) {
     return cos(turn * RADIANS);
 }
 
-// What the camera is inside, as media.glsl has it: that entered last first.
+// What the camera is inside, in the order of media.glsl: last entered first.
 static void put_inside(const struct flat_scene *flat, const struct view_camera *camera,
                        struct frame_block *frame) {
     uint32_t *entries[MEDIA_MOST] = {&frame->inside_0, &frame->inside_1, &frame->inside_2, &frame->inside_3,
@@ -47,7 +47,7 @@ static void put_inside(const struct flat_scene *flat, const struct view_camera *
     }
 }
 
-// That share what a pixel sees between them: where pixels end by their error, those that each has.
+// The samples that share a pixel's footprint: if pixels end by their error, the number that each pixel has.
 static double samples_of(const struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
     const uint32_t all = settings->whole_samples ? settings->whole_samples : settings->samples;
@@ -75,7 +75,7 @@ static void reach_of(const struct view_camera *camera, double aspect, double sca
     *right = *up * aspect;
 }
 
-// How much wider a pixel gets for each length along the view; of parallel rays its width, of fisheye and
+// How much wider a pixel gets per length along the view; for parallel rays its width, for fisheye and
 // panorama its angle.
 static double footprint_of(const struct view_camera *camera, double scale) {
     if (camera->projection == IR_PROJECTION_ORTHOGRAPHIC)
@@ -85,7 +85,7 @@ static double footprint_of(const struct view_camera *camera, double scale) {
     return camera->projection == IR_PROJECTION_PANORAMA ? 180 * RADIANS : 2 * camera->tan_half_fov;
 }
 
-// The picture that the camera sees, and what is drawn of it.
+// Describes the picture that the camera sees, and the part of it that is drawn.
 static void put_place(const struct render_settings *settings, struct frame_block *frame) {
     const struct render_size whole = renderer_whole(settings);
     frame->whole_width = whole.width;

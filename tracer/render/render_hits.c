@@ -1,4 +1,5 @@
-// What every pixel's first ray hits: a dispatch a band and kind of ray, and the way to bodies and pixels.
+// What every pixel's first ray hits: one dispatch per band and kind of ray, and the mapping to bodies and
+// pixels.
 #include "core/float_bits.h"
 #include "core/heap.h"
 #include "tracer/render/render_private.h"
@@ -74,7 +75,7 @@ static uint32_t kind_count(const struct renderer *renderer) {
     return HITS_LIGHTS + (lights < HITS_LIGHTS_MAX ? lights : HITS_LIGHTS_MAX);
 }
 
-// Which rays of which sample.
+// Which rays of which sample are traced.
 struct asking {
     uint32_t sample, kinds;
     const struct render_progress *progress;
@@ -155,7 +156,7 @@ static void count_unfinished(struct renderer *renderer, uint32_t tile_begin, uin
     }
 }
 
-// As of a picture of one sample: through the middle of the lens.
+// As for a picture of one sample: through the middle of the lens.
 static bool write_frame(struct renderer *renderer, const struct view_camera *camera) {
     const uint32_t samples = renderer->settings.samples, first = renderer->settings.first_sample;
     renderer->settings.samples = 1;

@@ -11,8 +11,8 @@
 #include <string.h>
 
 enum {
-    PATHS_APART = 8 << 20,    // what the second kernel saves in so many is what making it takes
-    PATHS_FOLLOWED = 3 << 19, // on a GPU it saves in so many what paths take that go on alone
+    PATHS_APART = 8 << 20,    // with this many paths, the second kernel saves as much as making it takes
+    PATHS_FOLLOWED = 3 << 19, // on a GPU it saves, with this many paths, what the paths that go on alone take
 };
 
 struct kernel_pair {
@@ -21,7 +21,7 @@ struct kernel_pair {
 #define KERNEL(name)                                                                                         \
     { &kernel_##name##_texels, &kernel_##name##_storage }
 
-// Those of one way, which ends their names.
+// The kernels of one method, whose name ends theirs.
 #define KERNELS(way)                                                                                         \
     {                                                                                                        \
         [RENDERER_TRACE] = KERNEL(trace##way), [RENDERER_HITS] = KERNEL(hits##way),                          \
@@ -93,7 +93,7 @@ double renderer_real(const struct renderer *renderer, uint32_t low, uint32_t hig
     return double_of_bits((uint64_t)high << 32 | low);
 }
 
-// How many refracted rays that wait a kernel has room for in private memory; 0: they lie in the state buffer.
+// How many waiting refracted rays a kernel has room for in private memory; 0: they are in the state buffer.
 static uint32_t private_branches(const struct renderer *renderer) {
     if (renderer->samples_at_once == 0)
         return 0;
@@ -140,9 +140,9 @@ static struct gpu_program *keep_program(struct renderer *renderer, uint64_t feat
     return program;
 }
 
-// On a GPU the paths that go on alone, after a pass, take as long however few they are. That pays where no
-// chain of rays is among them and the pass is long. In double precision a ray is seldom open, and a second
-// search needs all registers that there are.
+// On a GPU the paths that go on alone after a pass take equally long however few they are. That pays if none
+// of them is a chain of rays and the pass is long. In double precision a ray is rarely open, and a second
+// search needs all available registers.
 bool renderer_pays_apart(const struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
     const uint64_t paths = (uint64_t)settings->width * settings->height * settings->samples;
@@ -152,10 +152,10 @@ bool renderer_pays_apart(const struct renderer *renderer) {
            (gpu_fetches_texels(renderer->gpu) || renderer->flat->is_double || (!bounces && is_long));
 }
 
-// A kernel costs what all of its code does, wanted or not, on lavapipe, and on a GPU what the most registers
-// are that any of it needs: paths begin in one that neither takes up saved paths nor searches a second time,
-// and those that need that are saved. Counts would tell of this. A picture that is made once does not pay for
-// making a second kernel, unless it is large.
+// On lavapipe a kernel costs as much as all of its code, needed or not, and on a GPU as much as the most
+// registers that any part of it needs: so paths begin in a kernel that neither resumes saved paths nor
+// searches a second time, and paths that need this are saved. Counts would reveal this. A picture that is
+// made only once does not pay for compiling a second kernel, unless it is large.
 bool renderer_begins_apart(const struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
     const bool pays = renderer->has_drawn ||
@@ -198,7 +198,7 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
         [CONSTANT_MORE_FEATURES] = (uint32_t)(features >> 32),
         [CONSTANT_TRIANGLE_STACK] = stack_levels(renderer->triangle_depth),
         [CONSTANT_SPHERE_STACK] = stack_levels(renderer->sphere_depth),
-        // A group of the tree over instances says of its children too which are leaves.
+        // A group of the tree over instances also tells which of its children are leaves.
         [CONSTANT_PACKED_GROUPS] = renderer_packs_groups(flat),
         [CONSTANT_WORKGROUP] = renderer->settings.workgroup,
         [CONSTANT_AT_ONCE] = renderer->samples_at_once != 0,

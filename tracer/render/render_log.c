@@ -1,5 +1,5 @@
 // One sample's path, logged ray by ray: the host decides which rays go on, as the tracer does, and the log
-// kernel follows all of a level at a time. Weights and sums are floats in the tracer's order.
+// kernel follows all rays of a level at once. Weights and sums are floats in the tracer's order.
 #include "core/float_bits.h"
 #include "core/heap.h"
 #include "tracer/render/render_private.h"
@@ -23,7 +23,7 @@ struct renderer_log {
     struct gpu_word told[BATCH_RAYS * LOG_WORDS];
 };
 
-// A ray while the path is walked: by levels, so that children come after their parents.
+// A ray while the path is walked level by level, so that children come after their parents.
 struct node {
     struct render_segment segment;
     struct gpu_word ray[LOG_RAY_WORDS];
@@ -116,7 +116,7 @@ static bool follow(struct walk *walk, uint32_t begin, uint32_t end) {
     if (!gpu_write(renderer->gpu, log->state, 0, log->rays, sizeof log->rays) ||
         !dispatch(renderer, block, LOG_FOLLOW))
         return false;
-    // Past the lights ambient light, where bodies may block it, and the background.
+    // After the lights come ambient light, if bodies may block it, and the background.
     const uint32_t lights = renderer->flat->light_count +
                             (renderer->flat->features & FEATURE_OCCLUSION ? 1 : 0) +
                             (renderer->flat->sky.rows ? 1 : 0);
@@ -161,7 +161,7 @@ static struct node *put_child(struct walk *walk, uint32_t parent, enum render_ra
     return child;
 }
 
-// The rays that leave a surface, as is_followed and send_rays of the tracer decide.
+// Adds the rays that leave a surface, as the tracer's is_followed and send_rays decide.
 static void add_child(struct walk *walk, uint32_t parent, enum render_ray kind, float share,
                       const struct gpu_word *ray, const struct gpu_word inside[2]) {
     const struct render_settings *settings = &walk->renderer->settings;
@@ -227,7 +227,7 @@ static void take_surface(struct walk *walk, uint32_t index, const struct gpu_wor
               told + LOG_AFTER);
 }
 
-// Of a ray that hits nothing, what it sees: a light, or the background.
+// For a ray that hits nothing, what it sees: a light, or the background.
 static void take_light(struct walk *walk, uint32_t index, const struct gpu_word *told) {
     const struct renderer *renderer = walk->renderer;
     struct node *node = &walk->nodes[index];

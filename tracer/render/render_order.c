@@ -1,10 +1,10 @@
-// In which order tiles are traced where samples are traced at once: those first in which bodies reflect or
-// refract.
+// The order in which tiles are traced if samples are traced at once: tiles in which bodies reflect or refract
+// come first.
 //
-// A path of many rays takes long, and what begins last ends last: a GPU whose other processors have nothing
-// left to do waits for it. Longest work first keeps that short (Graham 1969, "Bounds on Multiprocessing
-// Timing Anomalies"). How long paths are nobody knows before, so tiles are ranked by the boxes that they
-// show; within a rank they keep their order, so that neighbours follow each other.
+// A path with many rays takes long, and what begins last ends last: the GPU's other processors then wait
+// idle. Longest work first keeps this wait short (Graham 1969, "Bounds on Multiprocessing Timing Anomalies").
+// The length of paths is not known beforehand, so tiles are ranked by the boxes that they show; within a rank
+// they keep their order, so neighbours follow each other.
 #include "core/heap.h"
 #include "tracer/render/render_private.h"
 
@@ -31,8 +31,8 @@ static uint32_t clamp_tile(double tile, uint32_t count) {
     return tile > 0 ? tile < count ? (uint32_t)tile : count : 0;
 }
 
-// Where a point is seen, in half heights of the picture to the right and down, and half as wide as the lens
-// blurs it. false: it is not before the camera.
+// Where a point is seen, in half heights of the picture to the right and down, and half the width of its blur
+// by the lens. false: it is not in front of the camera.
 static bool see(const struct view_camera *camera, vec3 point, double at[2], double *blur) {
     const vec3 way = vec3_sub(point, camera->position);
     const double along = vec3_dot(way, camera->forward);
@@ -44,7 +44,8 @@ static bool see(const struct view_camera *camera, vec3 point, double at[2], doub
     return along > 0;
 }
 
-// What the picture shows of a box at most: all of it, if the box reaches behind the camera.
+// An upper bound on what the picture shows of a box: all of the picture, if the box reaches behind the
+// camera.
 static struct area area_of(const struct renderer *renderer, const struct view_camera *camera,
                            const struct flat_bounce *body, const struct grid *grid) {
     const struct render_settings *settings = &renderer->settings;
@@ -87,7 +88,7 @@ static void add_area(const struct grid *grid, enum renderer_rank rank, struct ar
     edges[area.y1 * row + area.x1]++;
 }
 
-// Sums of the edges above and to the left: how many areas a tile is in.
+// Sums the edges above and to the left: the number of areas that a tile is in.
 static void sum_edges(const struct grid *grid, int32_t *edges) {
     const size_t row = grid->width + 1;
     for (size_t y = 0; y <= grid->height; y++)

@@ -1,6 +1,6 @@
-// How much work a dispatch gets. Nothing can end a dispatch from outside, so that none may take long: whoever
-// presses Ctrl-C waits for the one that runs. What paths take is learned from those before. Bands take their
-// runs of tiles from all over the picture, so that a few paths tell of the others.
+// How much work a dispatch gets. Nothing can end a dispatch from outside, so none may take long: whoever
+// presses Ctrl-C waits for the running one. The cost of paths is learned from earlier ones. Bands take their
+// runs of tiles from all over the picture, so a few paths are representative.
 #include "tracer/render/render_private.h"
 
 #include "core/clock.h"
@@ -13,17 +13,17 @@ enum {
     FIRST_PATHS = 65536,  // a GPU is not busy with fewer
     SPREAD_MOST = 32,     // lanes of the largest subgroup
     SPREAD_MOST_CPU = 2,  // a processor is not idle; so that tests see it
-    SPREAD_PATHS = 32768, // a GPU has room for so many at a time
-    FOLLOW_PATHS = 65536, // that go on right after a pass, at most
+    SPREAD_PATHS = 32768, // a GPU has room for this many at a time
+    FOLLOW_PATHS = 65536, // the most paths that go on right after a pass
     FOLLOW_PATHS_CPU = 64,
-    GROWTH_MOST = 4, // from one dispatch to the next: where few paths were cheap, others may not be
+    GROWTH_MOST = 4, // from one dispatch to the next: after a few cheap paths, others may cost more
 };
 static const double DISPATCH_SECONDS = 0.05;
-// What is left of a path's cost where the next ones cost less: neighbours are alike, and cheap ones may end
-// soon.
+// The part of a path's cost that is kept if the next ones cost less: neighbours are alike, and cheap ones may
+// end soon.
 static const double COST_KEPT = 0.75;
 
-// Rows of one length: empty workgroups at the end would all fall to one of a CPU's threads.
+// Rows have equal length: empty workgroups at the end would all fall to one of a CPU's threads.
 static uint32_t grid_width(uint32_t groups) {
     const uint32_t rows = (groups + GRID_WIDTH_MAX - 1) / GRID_WIDTH_MAX;
     return (groups + rows - 1) / rows;
@@ -34,7 +34,7 @@ static uint32_t paths_of(const struct renderer *renderer, const struct renderer_
     uint32_t paths = pace->paths ? pace->paths : first;
     if (renderer->settings.dispatch_paths)
         paths = renderer->settings.dispatch_paths;
-    // A rest that is much smaller would keep few threads busy.
+    // A much smaller remainder would keep only few threads busy.
     return left - left / 4 <= paths ? left : paths;
 }
 
@@ -51,7 +51,7 @@ static void learn(struct renderer_pace *pace, uint32_t ran, uint32_t workgroup, 
     pace->paths = paths < workgroup ? workgroup : paths - paths % workgroup;
 }
 
-// Few long paths leave a GPU idle anyway: then each gets more of it for itself, because the lanes of a
+// Few long paths leave a GPU idle anyway: so each path gets more of it for itself, because the lanes of a
 // subgroup wait for each other wherever their rays differ.
 static uint32_t spread_of(const struct gpu *gpu, uint32_t paths) {
     const uint32_t most = gpu_info(gpu)->kind == GPU_CPU ? SPREAD_MOST_CPU : SPREAD_MOST;
@@ -61,7 +61,7 @@ static uint32_t spread_of(const struct gpu *gpu, uint32_t paths) {
     return spread;
 }
 
-// Paths [begin, end) by a program, a spread apart, which another dispatch may follow at once.
+// Runs paths [begin, end) in a program, a spread apart; another dispatch may follow at once.
 static bool dispatch(struct gpu *gpu, struct gpu_program *program, uint32_t workgroup,
                      struct dispatch_block *block, uint32_t begin, uint32_t end, bool is_last) {
     const uint32_t groups = ((end - begin) * (block->spread ? block->spread : 1) + workgroup - 1) / workgroup;
@@ -76,7 +76,7 @@ static uint32_t clamp(uint32_t value, uint32_t least, uint32_t most) {
     return value < least ? least : value < most ? value : most;
 }
 
-// Paths that begin: the long ones, spread, and beside them the others.
+// Starts paths: the long ones, spread, and beside them the others.
 static bool dispatch_ranks(struct renderer_frame *run, struct gpu_program *program, uint32_t workgroup,
                            struct dispatch_block *block, uint32_t end) {
     const uint32_t begin = block->path_begin;
@@ -84,7 +84,7 @@ static bool dispatch_ranks(struct renderer_frame *run, struct gpu_program *progr
         clamp(renderer_rank_begin(run->renderer, block, RENDERER_RANK_REFRACTS + 1), begin, end);
     struct gpu *gpu = run->renderer->gpu;
     block->spread = spread_of(gpu, middle - begin);
-    // One dispatch, where nothing must be spread.
+    // One dispatch, if nothing must be spread.
     const uint32_t next = block->spread > 1 ? middle : begin;
     const bool first = begin == next || dispatch(gpu, program, workgroup, block, begin, next, next == end);
     block->spread = 1;
@@ -93,7 +93,8 @@ static bool dispatch_ranks(struct renderer_frame *run, struct gpu_program *progr
     return done;
 }
 
-// Those that a pass has saved, as soon as it has ended. Who records it does not know how many there are.
+// Runs the paths that a pass has saved, as soon as it has ended. Their number is not known when this is
+// recorded.
 static bool dispatch_saved(struct renderer_frame *run, uint32_t workgroup,
                            const struct dispatch_block *block) {
     struct gpu *gpu = run->renderer->gpu;

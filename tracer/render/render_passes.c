@@ -1,4 +1,4 @@
-// The paths of samples to their ends: passes over those that begin and over those that were saved, in
+// Follows the paths of samples to their ends: passes over paths that begin and over saved ones, in
 // dispatches.
 #include "tracer/render/render_private.h"
 
@@ -56,13 +56,13 @@ static bool run_paths(struct renderer_frame *run, struct dispatch_block *block, 
     return read_counters(run);
 }
 
-// That begin.
+// The number of paths that begin.
 static uint32_t paths_of(const struct dispatch_block *block) {
     return block->listed ? block->listed
                          : block->tile_count * TILE_PIXELS * (block->samples ? block->samples : 1);
 }
 
-// What a pass has put into its list; and how many of that have gone on right after it.
+// The number of paths that a pass has put into its list; and how many of them have gone on right after it.
 static uint32_t saved_by(const struct renderer_frame *run, const struct dispatch_block *block) {
     return run->renderer->pending[1 - block->read_list] - block->pending_base;
 }
@@ -89,7 +89,7 @@ static enum render_result draw_pass(struct renderer_frame *run, struct dispatch_
     return RENDER_DONE;
 }
 
-// A pass, and others until none of its paths is left.
+// A pass, and further passes until none of its paths is left.
 static enum render_result draw_to_end(struct renderer_frame *run, struct dispatch_block *block,
                                       uint32_t begin, uint32_t end) {
     struct renderer *renderer = run->renderer;
@@ -97,7 +97,8 @@ static enum render_result draw_to_end(struct renderer_frame *run, struct dispatc
     block->place_base = renderer->taken;
     block->resume = 0;
     for (;;) {
-        // Of the list that is read: what goes on right after this pass writes there what is saved once more.
+        // Of the list that is read: paths that go on right after this pass and are saved again are written
+        // there.
         const uint32_t next_base = renderer->pending[block->read_list];
         block->path_begin = begin;
         block->pending_base = base;
@@ -122,7 +123,7 @@ enum render_result renderer_draw_paths(struct renderer_frame *run, struct dispat
     block->restarts = 0;
     const uint32_t all = paths_of(block);
     enum render_result result = draw_to_end(run, block, 0, all);
-    // Those that found no place, as many at a time as there are places.
+    // Paths that found no place, as many at a time as there are places.
     const uint32_t left = renderer->restarts - block->restart_base;
     block->restarts = 1;
     for (uint32_t begin = 0; result == RENDER_DONE && begin < left; begin += renderer->places) {
@@ -132,7 +133,7 @@ enum render_result renderer_draw_paths(struct renderer_frame *run, struct dispat
     return result;
 }
 
-// Where a sample lies in its pixel, which is a part of the grid's where those lie apart.
+// Where a sample lies in its pixel, which is only a part of the grid's cell if pixels lie apart.
 static void offset_of(const struct renderer *renderer, uint32_t number, float *a, float *b) {
     const double apart = renderer->settings.apart;
     double x, y;

@@ -1,4 +1,4 @@
-// Inside of the renderer: what the files render*.c share. Thread safety: as render.h.
+// Internal to the renderer: what the files render*.c share. Thread safety: as render.h.
 #ifndef GLINT_TRACER_RENDER_RENDER_PRIVATE_H
 #define GLINT_TRACER_RENDER_RENDER_PRIVATE_H
 
@@ -46,7 +46,7 @@ enum {
     RENDERER_KEPT = 16
 };
 
-// What tiles show, in the order in which their paths begin.
+// What tiles show, in the order in which their paths are started.
 enum renderer_rank {
     RENDERER_RANK_REFRACTS,
     RENDERER_RANK_REFLECTS,
@@ -54,9 +54,9 @@ enum renderer_rank {
     RENDERER_RANKS,
 };
 
-// How many paths a dispatch may take so that it is over soon, and a signal heard (render_pace.c).
+// How many paths a dispatch may take so that it ends soon, and a signal is noticed (render_pace.c).
 struct renderer_pace {
-    uint32_t paths; // of the next one; 0: nothing is known yet
+    uint32_t paths; // of the next dispatch; 0: nothing is known yet
     double seconds; // of a path
 };
 enum renderer_pass {
@@ -83,12 +83,12 @@ struct renderer {
     const struct flat_scene *flat; // not owned
     struct render_settings settings;
     uint64_t features;        // of the scene, FEATURE_SLICES and FEATURE_LONG_RAYS
-    bool has_long_rays;       // one was seen
+    bool has_long_rays;       // one was found
     uint32_t path_stack;      // entries
-    uint32_t samples_at_once; // 0: a dispatch traces one sample, and lives of paths are in the state buffer
+    uint32_t samples_at_once; // 0: a dispatch traces one sample, and paths are in the state buffer
     uint32_t places;          // for saved paths
     struct gpu_buffer *picture,
-        *counters; // where samples are traced at once: what was copied to this process
+        *counters; // if samples are traced at once: the copy in this process
     struct gpu_program *resolve;
     uint32_t *order; // there too: as in the buffer BINDING_ORDER, for the camera `ordered`; NULL: none yet
     struct view_camera ordered;
@@ -96,16 +96,16 @@ struct renderer {
     uint32_t rank_begins[RENDERER_RANKS + 1]; // of that order: the first tile of each rank, and the end
     uint32_t tiles_x, tiles;                  // whole runs: some tiles may lie below the picture
     uint32_t run_tiles, runs, run_step;
-    uint32_t band_tiles; // of a band; the last may have fewer
+    uint32_t band_tiles; // in a band; the last one may have fewer
     struct gpu_buffer *buffers[GPU_BINDINGS];
     uint32_t triangle_depth, sphere_depth; // levels that kernels have stacks for
-    struct gpu_program *program;           // of those kept; NULL: none was wanted yet
+    struct gpu_program *program;           // one of those kept; NULL: none was needed yet
     struct gpu_program *counting;          // the same, with counters
     struct gpu_program *begins;            // most of it, for paths that begin
     bool has_drawn;                        // a frame with these settings
     struct renderer_kept kept[RENDERER_KEPT];
     uint32_t kept_next;         // which one is replaced next
-    uint32_t *band;             // the band's output, read back: 4 words a slot
+    uint32_t *band;             // the band's output, read back: 4 words per slot
     struct renderer_hits *hits; // made by the first renderer_hits
     struct renderer_log *log;   // made by the first renderer_log
     uint32_t pending[2];        // values of COUNTER_PENDING after the last dispatch, by list
@@ -114,7 +114,7 @@ struct renderer {
     struct render_estimate estimate; // of an adaptive frame; its arrays NULL: there was none
 };
 
-// The arrays of a flat scene that lie on the device, and where.
+// The arrays of a flat scene on the device, and where they are.
 enum {
     RENDERER_ARRAYS = 10
 };
@@ -122,16 +122,16 @@ struct renderer_array {
     uint32_t binding;
     const struct flat_array *array;
 };
-// Returns how many it has.
+// Returns how many arrays it has.
 uint32_t renderer_arrays(const struct flat_scene *flat, struct renderer_array out[RENDERER_ARRAYS]);
-// Makes its buffer and fills it: behind the paints with the texels of the renderer's flat scene.
+// Makes the array's buffer and fills it: after the paints with the texels of the renderer's flat scene.
 bool renderer_upload_array(struct renderer *renderer, const struct renderer_array *array);
 bool renderer_make_background(struct renderer *renderer);
 // Destroys all kernels, and what depends on the settings: renderer_change must follow.
 void renderer_forget_kernels(struct renderer *renderer);
 
-// A kernel over the renderer's scene and trees, as its settings want it; `output` and `state` take the place
-// of the band's where not NULL.
+// A kernel over the renderer's scene and trees, as its settings want it; `output` and `state` replace the
+// band's unless NULL.
 enum renderer_kernel {
     RENDERER_TRACE,
     RENDERER_HITS,
@@ -146,7 +146,8 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
 bool renderer_packs_groups(const struct flat_scene *flat);
 // The tracing kernel, compiled now or before, over the band's buffers. NULL: see gpu_error.
 struct gpu_program *renderer_program(struct renderer *renderer, bool counts);
-// Whether a kernel pays for paths to begin in that has only what most of them need; and whether they do.
+// Whether it pays to begin paths in a kernel with only what most of them need; and whether they do begin
+// there.
 bool renderer_pays_apart(const struct renderer *renderer);
 bool renderer_begins_apart(const struct renderer *renderer);
 // The kernel in which the paths of a frame begin; those that it saves go on in the tracing kernel.
@@ -159,21 +160,21 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
 struct renderer_frame {
     struct renderer *renderer;
     struct gpu_program *program; // in which paths begin
-    // Where samples are traced at once and `program` has not all: the tracing kernel, in which paths go on
-    // that a pass saves. Else NULL.
+    // If samples are traced at once and `program` lacks a part: the tracing kernel, in which paths saved by a
+    // pass go on. Else NULL.
     struct gpu_program *whole;
-    uint32_t follow; // how many of them at most went on right after the last dispatch
+    uint32_t follow; // at most how many of them went on right after the last dispatch
     const struct render_progress *progress;
     struct render_statistics *statistics;
     uint64_t steps_done, steps; // a band's sample is a step
-    bool met_long_ray;          // the frame was given up: renderer_take_long_rays, and once more
+    bool met_long_ray;          // the frame was given up: renderer_take_long_rays, and restart
     bool counting;
-    uint32_t counters[COUNTER_COUNT]; // after the last dispatch; of those in banks only where it counts
+    uint32_t counters[COUNTER_COUNT]; // after the last dispatch; those in banks only if it counts
     uint64_t counts[COUNTER_KINDS];   // of all banks and dispatches
     // NULL: all samples are made, band by band.
     const struct render_limit *limit;
-    uint32_t samples_done; // under a limit: that all pixels have
-    bool is_over;          // the limit ended the sample under way
+    uint32_t samples_done; // under a limit: the number that all pixels have
+    bool is_over;          // the limit ended the current sample
     // Where samples are traced at once and the last ones of a band are under way: what follows each pass.
     bool shows, shows_all; // the band's pixels go into the picture; and all pixels to this process
     struct dispatch_block resolve;
@@ -181,26 +182,26 @@ struct renderer_frame {
 // One sample of one band: all its paths to their ends.
 enum render_result renderer_draw_sample(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
                                         uint32_t sample);
-// One sample of those pixels of a band whose slots are in the list: `listed` of them. It is added to what the
-// output holds, or replaces it where `before` is 0: how many samples lie there.
+// One sample of those pixels of a band whose slots are in the list: `listed` of them. `before`: how many
+// samples the output holds, to which it is added; 0: it replaces the output.
 enum render_result renderer_draw_listed(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
                                         uint32_t sample, uint32_t before, uint32_t listed);
-// Samples of a band, from `first` on: `count` of them at once, or one that is added to what the output holds.
+// Samples of a band, from `first` on: `count` of them at once, or one that is added to the output.
 enum render_result renderer_draw_paths(struct renderer_frame *run, struct dispatch_block *block);
 // Whether pixels end when their error is small enough.
 static inline bool renderer_is_adaptive(const struct renderer *renderer) {
     return renderer->settings.error > 0;
 }
-// The frame where they do (render_adaptive.c).
+// Draws the frame if they do (render_adaptive.c).
 enum render_result renderer_draw_adaptive(struct renderer_frame *run, float *rgb);
-// The frame where samples are traced at once (render_at_once.c).
+// Draws the frame if samples are traced at once (render_at_once.c).
 enum render_result renderer_draw_at_once(struct renderer_frame *run, float *rgb);
-// Reports how far the frame is, with a part of the step under way; false: it is to end.
+// Reports the frame's progress, with a part of the current step; false: it must end.
 bool renderer_is_wanted(const struct renderer_frame *run, double part);
 // The offsets of samples that are traced at once. false: see gpu_error.
 bool renderer_write_samples(struct renderer *renderer, uint32_t first, uint32_t count);
-// Records what samples become: a mode of shaders/frame.h. Zeros for the faults that it counts. A copy of the
-// counters to this process.
+// Records the resolving of samples, in a mode of shaders/frame.h; clears the faults that it counts, and
+// copies the counters to this process.
 bool renderer_resolve(struct renderer_frame *run, uint32_t mode);
 bool renderer_clear_faults(struct renderer *renderer);
 bool renderer_copy_counters(struct renderer_frame *run);
@@ -213,10 +214,10 @@ bool renderer_sort_tiles(struct renderer *renderer, const struct view_camera *ca
 // Their buffers, where there are any, and the kernel that resolves them. false: see gpu_error.
 bool renderer_make_at_once(struct renderer *renderer);
 void renderer_drop_at_once(struct renderer *renderer);
-// A band's sums, as the kernel leaves them, when it has ended: 4 words a slot, valid until the next dispatch.
-// Where this process can read them in place they are not copied. NULL: see gpu_error.
+// A band's sums, as the kernel leaves them at its end: 4 words per slot, valid until the next dispatch. If
+// this process can read them in place they are not copied. NULL: see gpu_error.
 const uint32_t *renderer_sums(const struct renderer *renderer, uint32_t tile_count);
-// From there to their pixels of the picture. Returns whether some have faults.
+// Copies these sums to their pixels of the picture. Returns whether some have faults.
 bool renderer_unpack(const struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
                      const uint32_t *sums, uint32_t samples, float *rgb);
 // Adds the faults of a band's sums to the statistics.
@@ -230,24 +231,24 @@ bool renderer_begin_frame(struct renderer_frame *run, const struct view_camera *
 // Adds to the statistics, which the caller has cleared. `rgb` NULL: no picture.
 enum render_result renderer_draw_frame(struct renderer_frame *run, const struct view_camera *camera,
                                        float *rgb);
-// Refracted rays that wait in a path at the same time, at most; `by_weight`: with the weights of the scene's
+// The most refracted rays that wait in a path at the same time; `by_weight`: with the weights of the scene's
 // materials and the least weight of the settings, else whatever they are (render_waiting.c).
 uint32_t renderer_most_waiting(const struct renderer *renderer, bool by_weight);
 // Entries of the deeper tree's stack.
 uint32_t renderer_stack_levels(const struct renderer *renderer);
-// From now on with kernels that can save a ray in the middle of a tree. false: see gpu_error.
+// Switches to kernels that can save a ray in the middle of a tree. false: see gpu_error.
 bool renderer_take_long_rays(struct renderer *renderer);
-// The first path of a rank, of those of a band in the order in which they begin; of RENDERER_RANKS: their
+// The first path of a rank among a band's paths, in the order in which they begin; for RENDERER_RANKS: their
 // end.
 uint32_t renderer_rank_begin(const struct renderer *renderer, const struct dispatch_block *block, int rank);
 // Runs paths from block->path_begin on and sets block->path_end and grid_width: at most to `end`, and no more
-// than should be over in a twentieth of a second by what dispatches of this kind took before. Waits for them;
-// *seconds is the device's time. `workgroup` is the program's.
-// `run`, unless NULL, follows the dispatch from before it is submitted: renderer_follow_pass.
+// than should finish in a twentieth of a second, judging by earlier dispatches of this kind. Waits for them;
+// *seconds is the device's time. `workgroup` is the program's. `run`, unless NULL, follows the dispatch from
+// before it is submitted: renderer_follow_pass.
 bool renderer_run_paths(struct renderer *renderer, struct gpu_program *program, enum renderer_pass pass,
                         uint32_t workgroup, struct dispatch_block *block, uint32_t end,
                         struct renderer_frame *run, double *seconds);
-// Body in IR order, and its triangle in file order, of a number as in FAULT_NUMBER.
+// The body in IR order, and its triangle in file order, for a number as in FAULT_NUMBER.
 void renderer_number(const struct renderer *renderer, uint32_t number, uint32_t *body, uint32_t *triangle);
 void renderer_hits_destroy(struct renderer *renderer); // what renderer_hits made
 void renderer_log_destroy(struct renderer *renderer);  // what renderer_log made

@@ -1,4 +1,4 @@
-// Samples that were traced at once, made into a picture on the device: what is recorded after a pass of them.
+// Turns samples that were traced at once into a picture on the device: what is recorded after a pass of them.
 #include "tracer/render/render_private.h"
 
 bool renderer_resolve(struct renderer_frame *run, uint32_t mode) {
@@ -16,8 +16,8 @@ bool renderer_clear_faults(struct renderer *renderer) {
     return gpu_clear(renderer->gpu, renderer->buffers[BINDING_COUNTERS], begin, bytes);
 }
 
-// Paths that are saved may be left, of which the picture then knows nothing yet: it is shown again after the
-// next pass. An only sample shows its pixel when it ends.
+// Saved paths may be left that are not yet in the picture: it is made again after the next pass. A single
+// sample writes its pixel when it ends.
 static bool show_samples(struct renderer_frame *run) {
     struct renderer *renderer = run->renderer;
     return (renderer->settings.samples == 1 ||

@@ -1,4 +1,4 @@
-// The way back from slots to pixels, and from numbers to bodies.
+// Maps slots back to pixels, and numbers to bodies.
 #include "tracer/render/render_private.h"
 
 #include "core/parallel.h"
@@ -29,8 +29,8 @@ bool renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32
                          x, y);
 }
 
-// Which pixel a slot of the band at `tile_begin` shows; false: none of the picture. Of a band that the
-// tracing kernel has filled, and of others.
+// Which pixel a slot of the band at `tile_begin` shows; false: none in the picture. For a band that the
+// tracing kernel has filled, and for others.
 static bool renderer_traced_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot,
                                   uint32_t *x, uint32_t *y) {
     if (!renderer->order)
@@ -91,7 +91,7 @@ void renderer_number(const struct renderer *renderer, uint32_t number, uint32_t 
     *body = number;
     if (number < flat->sphere_count)
         return;
-    // The last body whose first triangle is not after this one.
+    // The last body whose first triangle does not come after this one.
     const uint32_t wanted = number - flat->sphere_count;
     uint32_t low = flat->sphere_count, high = flat->body_count;
     while (high - low > 1) {

@@ -1,13 +1,13 @@
-// A frame that may end before it has all its samples. Pixels must have equally many, and a sample that is
-// not wanted to its end must leave no trace: sample by sample the sums of all bands are read back, and those
-// of the last whole sample are kept beside those of the one under way.
+// A frame that may end before it has all its samples. All pixels must have equally many, and an abandoned
+// sample must leave no trace: sample by sample the sums of all bands are read back, and those of the last
+// whole sample are kept beside those of the current one.
 #include "core/heap.h"
 #include "tracer/render/render_private.h"
 
 #include <stdlib.h>
 
 struct sums {
-    uint32_t *whole, *next; // of all tiles, 4 words a slot: the last whole sample, and the one under way
+    uint32_t *whole, *next; // of all tiles, 4 words per slot: the last whole sample, and the current one
     bool has_bands;         // more than one: the band's buffer serves them in turn
 };
 

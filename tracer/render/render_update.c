@@ -59,7 +59,7 @@ static bool update_arrays(struct renderer *renderer, const struct flat_scene *wa
     return true;
 }
 
-// The same picture, as the store has it, becomes the same texels.
+// The same picture in the store becomes the same texels.
 static bool is_same_background(const struct flat_scene *a, const struct flat_scene *b) {
     return a->background == b->background && a->background_texels.bytes == b->background_texels.bytes &&
            a->background_texels.is_float == b->background_texels.is_float &&
@@ -100,14 +100,14 @@ bool renderer_update(struct renderer *renderer, const struct flat_scene *old, co
     const uint64_t had = renderer->settings.features;
     done = done ? done : &unseen;
     *done = (struct render_update){0};
-    // These have descriptors of their own, and are made when they are wanted.
+    // These have their own descriptors, and are made when they are needed.
     renderer_hits_destroy(renderer);
     renderer_log_destroy(renderer);
     if (!has_kernels_for(renderer, old, flat))
         renderer_forget_kernels(renderer);
     else if ((wanted.features | had) == had)
         wanted.features = had;
-    // How long paths may be depends on them, too.
+    // The possible length of paths depends on them, too.
     if (old->light_count != flat->light_count)
         renderer->settings.width = 0;
     renderer->flat = flat;

@@ -32,7 +32,7 @@ static struct render_rays rays_of(const struct renderer_frame *run) {
                                 .lost_by_weight = float_of_bits((uint32_t)counts[COUNTER_LOST_WEIGHT])};
 }
 
-// The kernel that counts, or the other, with no count from before. false: see gpu_error.
+// Begins with the kernel that counts, or the other, without any earlier count. false: see gpu_error.
 static bool begin(struct renderer_frame *run, bool counts) {
     run->counting = counts;
     run->program = renderer_first_program(run->renderer, counts);
@@ -45,7 +45,7 @@ static enum render_result draw(struct renderer_frame *run, const struct view_cam
     return run->limit ? renderer_draw_until(run, camera, rgb) : renderer_draw_frame(run, camera, rgb);
 }
 
-// Where a ray needs more iterations than a slice has, all is begun again with kernels that can save it: the
+// If a ray needs more iterations than a slice has, the frame is restarted with kernels that can save it: the
 // others are faster, and almost no scene has such a ray.
 static enum render_result draw_frame(struct renderer_frame *run, const struct view_camera *camera,
                                      bool counts, float *rgb) {
@@ -86,7 +86,7 @@ enum render_result renderer_count(struct renderer *renderer, const struct view_c
                                   const struct render_progress *progress, struct render_rays *rays) {
     struct render_statistics statistics;
     struct renderer_frame run = {.renderer = renderer, .progress = progress, .statistics = &statistics};
-    // What the picture says of itself stays.
+    // The picture's estimate of itself stays.
     const struct render_estimate estimate = renderer->estimate;
     const enum render_result result = draw_frame(&run, camera, true, NULL);
     if (estimate.error)

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 static int compare_values(double a, double b) {
-    // NaN after everything.
+    // NaN sorts last.
     if (isnan(a) || isnan(b))
         return isnan(a) - isnan(b);
     return a < b ? -1 : a > b;
@@ -54,7 +54,7 @@ static bool is_slower(const struct search *s, uint32_t row, uint32_t than) {
     return s->rows[row].time_ms > s->rows[than].time_ms * (1 + s->noise);
 }
 
-// Of the rows whose times cannot be distinguished from the fastest, the one of least work.
+// The row with the least work among those whose times cannot be distinguished from the fastest.
 static uint32_t cheapest(const struct search *s, uint32_t without) {
     const uint32_t first = fastest(s, without);
     uint32_t best = first;
@@ -76,7 +76,7 @@ double choice_classify(struct choice_row *rows, uint32_t count) {
         rows[i].time_class = rows[i].rank = CHOICE_NONE;
         rows[i].on_front = false;
     }
-    // A class holds the rows that cannot be distinguished from its fastest.
+    // A class holds the rows that cannot be distinguished from its fastest row.
     for (uint32_t class = 0; taken; class ++) {
         const uint32_t leader = fastest(&s, CHOICE_NONE);
         if (leader == CHOICE_NONE)
@@ -179,7 +179,7 @@ static uint32_t least_error(const struct search *s, uint32_t without) {
     return best;
 }
 
-// What fits is preferred by one measure, what does not fit comes near by the other.
+// What fits is ranked by one measure; what does not fit, by how near it comes in the other.
 typedef uint32_t preference(const struct search *s, uint32_t without);
 
 static struct choice choose(const struct search *fitting, const struct search *others, preference *prefer,

@@ -1,4 +1,4 @@
-// What all that is measured shares: progress, time, and which rows trace the file's own rays.
+// What all measurements share: progress, time, and which rows trace the file's own rays.
 #include "measure/tradeoff/measure/measure.h"
 
 #include "core/clock.h"
@@ -15,7 +15,7 @@ bool measuring_is_late(struct measuring *s) {
 }
 
 bool measuring_report(struct measuring *s, double steps) {
-    // Where a budget ends the work, it may be over before its steps are.
+    // If a budget ends the work, it may end before all steps are done.
     const double budget = s->out->options.budget_s;
     const double of_steps = steps / (s->steps + 1), of_time = budget > 0 ? measuring_seconds(s) / budget : 0;
     return !s->progress ||

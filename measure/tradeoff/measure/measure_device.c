@@ -12,8 +12,8 @@
 enum {
     FRAMES_MOST = 24, // of one timing
 };
-// A timing's frames go on until they sum to this. A GPU that was idle takes a while to reach its clock: once
-// before all, and a little where buffers were made or a kernel compiled in between.
+// A timing's frames go on until they sum to this. A GPU that was idle takes a while to reach its clock: it is
+// warmed up once at the start, and briefly if buffers were made or a kernel compiled in between.
 static const double TIMED_SECONDS = 0.04, WARM_SECONDS_GPU = 0.02, WAKE_SECONDS_GPU = 1;
 
 static void show(const void *context, const float *linear, size_t pixels, float *shown) {
@@ -151,7 +151,7 @@ enum tradeoff_status device_samples(struct measuring *s, const struct setting *s
     return status;
 }
 
-// How many samples the row's pixels took, for the parts of its error.
+// Keeps how many samples the row's pixels took, for the parts of its error.
 static bool keep_taken(struct measuring *s, const struct renderer *renderer, const struct setting *setting) {
     const size_t pixels = heap_times(setting->width, setting->height);
     free(s->taken);
@@ -177,8 +177,8 @@ enum tradeoff_status device_picture(struct measuring *s, struct row *row, float 
     return status;
 }
 
-// Rays, nodes and items of one sample per pixel, times the samples: what counts the same for all samples
-// needs no further frames. Where pixels end by their error, those of all.
+// Rays, nodes and items of one sample per pixel, times the samples: counts that are equal for all samples
+// need no further frames. If pixels end by their error, the counts of all samples.
 enum tradeoff_status device_count(struct measuring *s, struct row *row) {
     struct setting counted = row->setting;
     struct renderer *renderer;

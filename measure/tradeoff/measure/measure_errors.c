@@ -46,7 +46,7 @@ static void picture_thumbnail(const float *shown, uint32_t width, uint32_t heigh
     free(bytes);
 }
 
-// The largest difference of each box: single wrong pixels stay to be seen.
+// The largest difference in each box, so that single wrong pixels stay visible.
 static void difference_thumbnail(const float *difference, uint32_t width, uint32_t height,
                                  struct strbuf *out) {
     const uint32_t w = width < THUMBNAIL_WIDTH ? width : THUMBNAIL_WIDTH,

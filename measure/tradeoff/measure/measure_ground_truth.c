@@ -10,12 +10,12 @@
 #include <stdlib.h>
 
 enum {
-    PILOT_PIXELS = 2048, // about; of a small picture a sixteenth
+    PILOT_PIXELS = 2048, // approximate; for a small picture a sixteenth
     PILOT_PIXELS_LEAST = 64,
     PILOT_PART = 16,
 };
-// Rays a second and processor that the reference is taken to trace when the ground truth is planned; fixed,
-// so that the plan does not depend on the load of the machine.
+// Rays per second and processor that the reference is assumed to trace when the ground truth is planned;
+// fixed, so that the plan does not depend on the load of the machine.
 static const double REFERENCE_RAYS = 1e6;
 // Share of the budget for the ground truth.
 static const double GROUND_TRUTH_SHARE = 0.3;
@@ -77,7 +77,7 @@ static enum tradeoff_status run_pilots(struct measuring *s, struct plan_ground_t
     return measuring_reference_status(result);
 }
 
-// Where nothing is reflected nor refracted, the file's own rays say what the ground truth's are.
+// If nothing is reflected or refracted, the file's own rays tell those of the ground truth.
 static enum tradeoff_status plan(struct measuring *s, const struct work *own, bool bounces,
                                  struct plan_ground_truth *out) {
     const uint64_t pixels = (uint64_t)s->base.width * s->base.height;
@@ -113,7 +113,7 @@ enum tradeoff_status ground_truth_make(struct measuring *s, const struct work *o
     struct plan_ground_truth planned;
     const double start = clock_seconds();
     s->full = measuring_all_paths(s, s->input->image);
-    // None that a row has: what two pictures share would not count as an error.
+    // Samples that no row has: errors that two pictures share would not count.
     s->full.first_sample = VIEW_OTHER_SAMPLES;
     s->full.points_of = s->full.footprint_of = 0; // all pixels of a row have all its samples
     enum tradeoff_status status = plan(s, own, bounces, &planned);

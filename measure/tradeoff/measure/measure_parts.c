@@ -1,7 +1,7 @@
 // The error of a picture, split: numeric, truncation, sampling, resolution.
 //
 // Whitted pictures are deterministic: between the device's picture and the ground truth lie pictures that the
-// reference can make, each different from the one before by one cause. They are made at some pixels only,
+// reference can make, each different from the one before by one cause. They are made only at some pixels,
 // spread evenly.
 #include "core/heap.h"
 #include "measure/tradeoff/measure/measure.h"
@@ -39,7 +39,7 @@ struct probing {
     struct measuring *s;
     const struct reference *reference;
     struct reference_settings settings;
-    const uint32_t *taken; // by pixel, where pixels end by their error; NULL: all samples
+    const uint32_t *taken; // by pixel, if pixels end by their error; NULL: all samples
     float *values;
 };
 
@@ -145,7 +145,8 @@ static double mean_difference(const float *a, const float *b, size_t count) {
     return sum / (3 * (double)count);
 }
 
-// What differs only in how it is computed is rare and far apart: it is measured over the whole picture.
+// Differences only in how pixels are computed are rare and far apart: they are measured over the whole
+// picture.
 static enum tradeoff_status whole_numeric(struct measuring *s, double *numeric) {
     const size_t pixels = heap_times(s->base.width, s->base.height);
     if (!s->as_file && !s->only_probes)

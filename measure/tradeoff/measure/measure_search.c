@@ -1,10 +1,10 @@
 // The rows of a search, and what they are compared with.
 //
 // A picture's error by chance is estimated from its own samples: the mean of all of them and the mean of
-// those that were added last differ by about as much as the first from the truth. What no number of samples
-// shows, a small picture does: what the reference finds beyond the device at a few samples, rays that
-// max_depth and min_weight cut, and rounding. Between two tracers of the same rays there is no noise of
-// sampling, so that a few do.
+// those added last differ by about as much as the first does from the truth. A small picture shows what no
+// number of samples does: what the reference finds beyond the device at a few samples, rays that max_depth
+// and min_weight cut, and rounding. Between two tracers of the same rays there is no sampling noise, so a few
+// samples are enough.
 #include "core/heap.h"
 #include "measure/tradeoff/measure/measure.h"
 #include "measure/tradeoff/plan/plan_search.h"
@@ -18,11 +18,11 @@ enum {
     PILOT_PIXELS = 1024,
     PILOT_VALUES = 3 * PILOT_PIXELS,
 };
-// Change that does not matter where no bound says how little does; else this share of the bound.
+// The change that does not matter if there is no bound; else this share of the bound.
 static const double BEARABLE = 0.001, BEARABLE_SHARE = 0.05;
-// An estimate may be too low by this share: of a few samples more than of many.
+// An estimate may be too low by this share: more so with few samples than with many.
 static const double MARGIN = 0.1, MARGIN_OF_ONE = 0.6;
-// One over the picture's width: how far what the reference adds is spread.
+// One over the picture's width: how far the reference's additions are spread.
 static const double SMOOTH_WIDTH = 64;
 
 static size_t values_of(const struct measuring *s) {
@@ -97,14 +97,14 @@ static enum tradeoff_status run_pilots(struct measuring *s, struct pilots *pilot
            (s->full.segments = plan_search_pilot(pilots->all, pilots->count, rays, most, bearable)) > 0) {
         struct plan_search_pilot *pilot = &pilots->all[pilots->count];
         status = run_pilot(s, s->full, pilots, pilot, &deepest);
-        // The first differs from the file's settings, not from one of fewer rays.
+        // The first differs from the file's settings, not from a pilot with fewer rays.
         p->is_cut |= deepest > p->deepest || pilot->rays > own.rays;
         pilot->change = pilots->count++ ? pilot->change : (double)INFINITY;
     }
     if (status != TRADEOFF_DONE)
         return status;
     const struct plan_search_pilot *last = &pilots->all[pilots->count - 1];
-    // Where no sample of a pilot needed more, those of the picture that do are few.
+    // If no sample of a pilot needed more, only few samples of the picture do.
     s->full.segments = last->cut ? last->segments : most;
     p->change = last->cut && last->segments < most ? fmin(last->change, 1) : 0;
     s->out->ground_truth_segments = s->full.segments;
@@ -185,7 +185,7 @@ static double finite_or_0(double value) {
     return isfinite(value) ? value : 0;
 }
 
-// Sums along lines become means over squares.
+// Turns sums along lines into means over squares.
 static void spread_columns(struct measuring *s, double *sums, int64_t reach) {
     const int64_t width = s->search.probe_width, height = s->search.probe_height, side = 2 * reach + 1;
     double *column = s->search.column;
@@ -292,7 +292,7 @@ static enum tradeoff_status try_probe(struct measuring *s, const struct setting 
     return status;
 }
 
-// As the file has it.
+// Rounds to the file's format.
 static void round_shown(const struct measuring *s, size_t values) {
     const double levels = s->out->options.levels;
     for (size_t i = 0; levels > 0 && i < values; i++)
@@ -362,7 +362,7 @@ static enum tradeoff_status add_samples(struct measuring *s, const struct settin
     return status;
 }
 
-// The samples of a row, and one more where it has only one, in two parts.
+// Draws the samples of a row, and one more if it has only one, in two parts.
 static enum tradeoff_status draw_row(struct measuring *s, const struct setting *setting) {
     struct search_pictures *p = &s->search;
     const size_t values = (size_t)3 * setting->width * setting->height;
@@ -380,7 +380,7 @@ static enum tradeoff_status draw_row(struct measuring *s, const struct setting *
 }
 
 // Fills s->picture with the row's picture, linear, and p->best with one that is as far from it as it is from
-// the truth, as far as its own samples tell.
+// the truth, judging by its own samples.
 static void row_pictures(struct measuring *s, const struct setting *setting) {
     struct search_pictures *p = &s->search;
     const size_t values = (size_t)3 * setting->width * setting->height;
@@ -394,7 +394,7 @@ static void row_pictures(struct measuring *s, const struct setting *setting) {
     }
 }
 
-// Of the file's size: s->picture and p->best are as row_pictures leaves them.
+// For the file's size: s->picture and p->best are as row_pictures leaves them.
 static void measure_whole(struct measuring *s, struct row *row) {
     struct search_pictures *p = &s->search;
     const enum metric metric = s->out->options.metric;
@@ -409,8 +409,8 @@ static void measure_whole(struct measuring *s, struct row *row) {
     image_to_displayed(p->best, values_of(s) / 3, s->display, p->best);
 }
 
-// Smaller pictures are compared with the last one of the file's size. Scaled up as render does it: before
-// they are displayed.
+// Smaller pictures are compared with the last one of the file's size. They are scaled up as render does:
+// before they are displayed.
 static void measure_small(struct measuring *s, struct row *row) {
     const uint32_t width = s->base.width, height = s->base.height;
     scale_picture(s->picture, row->setting.width, row->setting.height, s->shown, width, height);
@@ -428,7 +428,7 @@ static void fill_row(struct measuring *s, struct row *row) {
         plan_search_safe(metric, row->value[metric], MARGIN + MARGIN_OF_ONE / setting->samples);
     row->time_ms = row->time_low_ms = row->time_high_ms = 1e3 * p->row_seconds * setting->samples / drawn;
     row->not_finite = p->row_not_finite;
-    // Of rows that take as long, the one of fewer samples.
+    // Among rows that take equally long, the one with fewer samples.
     row->work.cost =
         (double)setting->width * setting->height * setting->samples * (setting->is_double ? 2 : 1);
 }

@@ -1,4 +1,4 @@
-// What the rows take on the device's clock, in rounds, until the noise is low.
+// The rows' times on the device's clock, in rounds, until the noise is low.
 #include "core/heap.h"
 #include "measure/tradeoff/measure/measure.h"
 
@@ -10,11 +10,11 @@
 #include <string.h>
 
 enum {
-    ROUNDS_FEW = 3,   // fewer may choose otherwise
+    ROUNDS_FEW = 3,   // with fewer rounds the choice may differ
     ROUNDS_QUIET = 4, // at least, where there is no noise
 };
 
-// What a whole round was slower or faster than the others is the machine's, not the rows'.
+// If a whole round was slower or faster than the others, the machine was, not the rows.
 static void remove_drift(double *times, uint32_t rows, uint32_t rounds) {
     double mean = 0;
     for (uint32_t r = 0; r < rounds; r++)
@@ -66,8 +66,8 @@ static bool is_quiet(struct tradeoff *t, const double *times) {
     return quiet;
 }
 
-// Every row once; each round begins with another one. A round that the budget's end comes upon does not
-// count.
+// Times every row once; each round begins with a different row. A round that the end of the budget interrupts
+// does not count.
 static enum tradeoff_status time_round(struct measuring *s, double *times) {
     struct tradeoff *t = s->out;
     enum tradeoff_status status = measuring_step(s, "times") ? TRADEOFF_DONE : TRADEOFF_CANCELLED;

@@ -1,4 +1,4 @@
-// What a picture has and can be left out: on the device features that are not compiled in, for the reference
+// Parts of a picture that can be left out: on the device features that are not compiled in, for the reference
 // another scene.
 #include "core/heap.h"
 #include "measure/tradeoff/measure/measure.h"

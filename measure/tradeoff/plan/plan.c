@@ -44,7 +44,7 @@ bool plan_differs(const struct setting *a, const struct setting *b, enum knob kn
     }
 }
 
-// Of what is left out.
+// Names of what is left out.
 static const char *const without_names[KNOB_COUNT] = {
     [KNOB_CLEAR_SHADOWS] = "transparent_shadows off",
     [KNOB_OCCLUSION] = "occlusion off",
@@ -139,7 +139,8 @@ static void add(struct planning *p, struct setting setting) {
 static void add_depths(struct planning *p) {
     static const uint32_t ladder[] = {0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
     struct setting s = p->input->base;
-    // Beyond the deepest level that is reached nothing changes, unless the file's own limit is what stops it.
+    // Beyond the deepest level that paths reach nothing changes, unless the file's own limit is what stops
+    // them.
     const bool stopped = p->input->deepest >= s.max_depth;
     const uint32_t twice = s.max_depth ? 2 * s.max_depth : 1;
     for (size_t i = 0; i < sizeof ladder / sizeof *ladder; i++) {
@@ -185,8 +186,8 @@ static void add_samples(struct planning *p) {
         add(p, s);
 }
 
-// Of a file that has an error its own samples, else those of a ladder, of which a quarter come before any
-// ends.
+// For a file with an error its own samples, else those of a ladder, a quarter of which are taken before any
+// pixel ends.
 static void add_errors(struct planning *p) {
     static const double ladder[] = {0.1, 0.05, 0.02, 0.01, 0.005};
     struct setting s = p->input->base;
@@ -246,7 +247,7 @@ uint32_t plan_single(const struct plan_input *input, struct row *rows) {
 
 // ---- times
 
-// Whether all rays of `a` are rays of `b` too. Which pixels end earlier with a larger error is not as simple.
+// Whether all rays of `a` are rays of `b` too. Which pixels end earlier with a larger error is less simple.
 static bool is_part(const struct setting *a, const struct setting *b) {
     const uint32_t rays_only = 1u << KNOB_CLEAR_SHADOWS | 1u << KNOB_OCCLUSION;
     return !plan_differs(a, b, KNOB_ERROR) && !((a->without ^ b->without) & ~rays_only) &&
@@ -295,7 +296,7 @@ static bool matters(const struct row *row, const struct row *base, enum metric m
     return work >= 0.02 * base->work.cost || fabs(error_of(row, metric) - error) >= 0.05 * fabs(error);
 }
 
-// No other row of the knob, nor the file's own, costs no more and errs no more.
+// Whether no other row of the knob, nor the file's own, costs no more and has no larger error.
 static bool is_worth_it(const struct row *rows, uint32_t count, uint32_t index, enum metric metric) {
     const struct row *row = &rows[index];
     for (uint32_t i = 0; i < count; i++) {
@@ -309,7 +310,7 @@ static bool is_worth_it(const struct row *rows, uint32_t count, uint32_t index, 
     return !isnan(error_of(row, metric));
 }
 
-// Both say how many samples there are.
+// Both set the number of samples.
 static bool are_one(uint32_t a, uint32_t b) {
     const uint32_t samples = 1u << KNOB_SAMPLES | 1u << KNOB_ERROR;
     return a == b || (1u << a & samples && 1u << b & samples);
@@ -350,11 +351,11 @@ static struct setting join(const struct setting *a, uint32_t knob_a, const struc
     return s;
 }
 
-// A pair's cost and error as its parts foretell them.
+// A pair's cost and error as predicted from its parts.
 struct pair {
     uint32_t a, b;
     double cost, error;
-    uint32_t better; // rows and pairs that are foretold to cost no more and err no more
+    uint32_t better; // rows and pairs predicted to cost no more and have no larger error
 };
 
 static int by_promise(const void *a, const void *b) {
@@ -367,7 +368,7 @@ static int by_promise(const void *a, const void *b) {
 }
 
 static struct pair foretell(const struct row *rows, uint32_t a, uint32_t b, enum metric metric) {
-    // Works multiply. Errors of two knobs hide each other as often as they add: the larger one is taken for
+    // Works multiply. Errors of two knobs hide each other as often as they add: the larger one is used for
     // both.
     return (struct pair){.a = a,
                          .b = b,

@@ -1,8 +1,8 @@
 // Which settings are tried: the ladders of each knob, and pairs of those that mattered; and how far the
-// ground truth goes that they are compared with. Private to measure/tradeoff.
+// ground truth that they are compared with goes. Private to measure/tradeoff.
 //
-// What is planned depends on the scene and on counted work and measured errors alone, never on a clock.
-// Thread safety: pure.
+// The plan depends only on the scene, counted work and measured errors, never on a clock. Thread safety:
+// pure.
 #ifndef GLINT_MEASURE_TRADEOFF_PLAN_PLAN_H
 #define GLINT_MEASURE_TRADEOFF_PLAN_PLAN_H
 
@@ -19,10 +19,10 @@ struct plan_input {
     struct setting base;
     bool bounces;      // something reflects or refracts
     uint32_t deepest;  // level that the file's settings reach
-    bool knows_double; // the device can
+    bool knows_double; // the device supports it
     bool has_triangles;
     uint32_t most_samples; // of a ladder
-    uint32_t parts;        // of KNOBS_WITHOUT, what the scene has
+    uint32_t parts;        // the parts among KNOBS_WITHOUT that the scene has
 };
 
 // The file's own settings first, then each knob's ladder from coarse to fine, without the file's own value.
@@ -33,20 +33,20 @@ uint32_t plan_single(const struct plan_input *input, struct row *rows);
 uint32_t plan_sizes(const struct setting *base, struct setting sizes[PLAN_SIZES_MAX]);
 
 // Pairs of settings, one from each of two knobs that mattered: by at least 2 % of the work or 5 % of the
-// error. Those are taken that no row of their own knob betters in both. First those that the fewest others
-// are foretold to better; `most` at most. Returns the number of rows.
+// error. Only settings that no row of their own knob betters in both are taken. Pairs that the fewest others
+// are predicted to better come first; at most `most`. Returns the number of rows.
 uint32_t plan_pairs(const struct row *rows, uint32_t count, enum metric metric, uint32_t most,
                     struct row *pairs, uint32_t *left_out);
 
-// Makes times rise where rays are only added: a row that sends a part of another's rays, by the same kernel
-// or one with fewer features, is never the slower one, whatever was measured. What contradicts that is noise,
-// and is set to the middle of it; all else stays. false: no memory.
+// Makes times rise where rays are only added: a row that sends a part of another's rays, with the same kernel
+// or one with fewer features, is never the slower one, whatever was measured. Times that contradict this are
+// noise, and are set to their middle; all others stay. false: no memory.
 bool plan_order_times(struct row *rows, uint32_t count);
 
 // ---- the ground truth (plan_ground_truth.c)
 
-// A small picture of the ground truth, to count what the whole one would take: the file's own rays say
-// nothing of it, for they end where max_depth and min_weight do.
+// A small picture of the ground truth, to count what the whole one would take: the file's own rays do not
+// tell, because they end at max_depth and min_weight.
 struct plan_pilot {
     uint64_t segments; // rays that a sample might take
     double rays;       // and took, on average
@@ -57,22 +57,22 @@ struct plan_ground_truth_input {
     uint32_t file_samples;
     uint64_t pixels, pilot_pixels; // traced for the study, and by a pilot
     double rays_most;              // that all may take together; INFINITY: no bound
-    uint64_t segments_most;        // that a sample may take where there is no bound
+    uint64_t segments_most;        // that a sample may take if there is no bound
     const struct plan_pilot *pilots;
     uint32_t pilot_count; // at most PLAN_PILOTS_MAX
 };
 
-// Rays per sample of the pilot to be counted next; 0: what is known is enough.
+// Rays per sample of the pilot to be counted next; 0: enough is known.
 uint64_t plan_next_pilot(const struct plan_ground_truth_input *input);
 
 struct plan_ground_truth {
     uint32_t samples;
     uint64_t segments; // rays that a sample may take, the heaviest first
-    bool fits;         // into rays_most; else it is the least that is worth comparing with
+    bool fits;         // into rays_most; else it is the least worth comparing with
 };
 
-// As many samples as fit, at least twice the file's; where these do not fit either, with fewer rays each; and
-// where that is far from fitting, the file's own samples.
+// As many samples as fit, at least twice the file's; if these do not fit either, with fewer rays each; and if
+// that is far from fitting, the file's own samples.
 struct plan_ground_truth plan_ground_truth(const struct plan_ground_truth_input *input);
 
 // Whether the knob has another value.

@@ -1,8 +1,8 @@
-// How far two means of a pixel's samples tell how far they are from the truth, where edges pass.
+// How well two means of a pixel's samples tell their distance from the truth, at edges.
 //
-// All pixels have the same samples, so that one set of them errs at every edge in the same way, and two sets
-// may happen to err alike: of 11 samples, the first six and all of them differ by half of what they err by.
-// Of straight edges all of it is known without a picture.
+// All pixels have the same samples, so one set of them errs in the same way at every edge, and two sets may
+// happen to err alike: with 11 samples, the first six and all of them differ by half of their errors. For
+// straight edges all of this is known without a picture.
 #include "core/angle.h"
 #include "measure/tradeoff/plan/plan_search.h"
 #include "scene/view.h"
@@ -13,7 +13,7 @@ enum {
     EDGES = 256,
     SIDE = 32, // points along a side of a pixel, of which a share is the truth
 };
-// Of a pixel's side: how far edges are from its middle, at most. Beyond it they do not touch the pixel.
+// In sides of a pixel: how far edges may be from its middle. Beyond this they do not touch the pixel.
 #define EDGE_MOST 0.7
 
 // A side of a straight edge: where x * a + y * b > from, from the middle of the pixel.

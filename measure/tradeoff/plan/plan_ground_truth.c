@@ -4,12 +4,12 @@
 #include <math.h>
 
 enum {
-    GROUND_TRUTH_SAMPLES = 16, // at least; four times the file's where that is more
+    GROUND_TRUTH_SAMPLES = 16, // at least; four times the file's if that is more
     GROUND_TRUTH_SAMPLES_MOST = 64,
     PILOT_STEP = 4, // from one pilot's rays to the next one's
-    // Where none of n pixels showed it, up to 3 of n others still may (95 %).
+    // If none of n pixels showed it, up to 3 of n others still may (95 %).
     UNSEEN = 3,
-    // Twice the file's samples may cost this many times what they should; if they cost more, the file's own
+    // Twice the file's samples may cost this many times their budget; if they cost more, the file's own
     // samples are taken.
     PATIENCE = 8,
 };
@@ -35,7 +35,7 @@ uint64_t plan_next_pilot(const struct plan_ground_truth_input *in) {
     return next < in->segments_most ? next : in->segments_most;
 }
 
-// Samples may wish for more rays than the pilot's pixels did: they get what is left.
+// Samples may want more rays than the pilot's pixels did: they get what is left.
 static uint64_t whole_paths(const struct plan_ground_truth_input *in, const struct plan_pilot *pilot,
                             double rays) {
     const double most = (double)in->pilot_pixels * (rays - pilot->rays) / UNSEEN;

@@ -5,34 +5,34 @@
 enum {
     LADDER_MAX = 4,
     PILOT_STEP = 4,       // from one pilot's rays to the next one's
-    PILOT_RAYS_TIMES = 2, // what a pilot may take where too much weight is left
+    PILOT_RAYS_TIMES = 2, // how much a pilot may take if too much weight is left
     PROBE_LEAST = 1 << 10,
     PROBE_MOST = 1 << 16, // pixels
     PROBE_SAMPLES = 4,    // at most
-    SETTLED = 8,          // samples from which on errors tell of more
-    SETTLED_WELL = 24,    // and from which on they tell that more do not help
+    SETTLED = 8,          // samples from which on errors allow predictions
+    SETTLED_WELL = 24,    // and from which on they tell that more samples do not help
     DEEPER_MOST = 6,      // times that paths are made longer
-    DEPTH_MOST = 64,      // that a scene may ask for
-    STEP_FEW = 2,         // times the samples, while they are few
+    DEPTH_MOST = 64,      // that a scene may have
+    STEP_FEW = 2,         // factor on the samples, while they are few
     STEP_MOST = 4,
 };
 // Rays of the reference that take about half a second, whatever the picture.
 static const double TRUTH_RAYS = 6e5;
-// Lighter paths are followed, one step deeper.
+// Rays lighter by this factor are followed, one step deeper.
 static const double DEEPER_WEIGHT = 3;
 // Errors fall by about this power of the samples: those of edges by about 0.75, of the rest by 0.5.
 static const double FALLS_LEAST = 0.4, FALLS = 0.5, FALLS_MOST = 0.75;
-// Four times the samples make errors about half as large. Where they fall by no more than this power,
-// something else is wrong.
+// Four times the samples make errors about half as large. If they fall by no more than this power, something
+// else is wrong.
 static const double STAGNATES = 0.15;
-// More than what is foretold, and at least, from one row to the next.
+// Factor on the predicted samples, and the least factor from one row to the next.
 static const double AIM = 1.06, STEP_LEAST = 1.15;
-// Of the bound: what may remain however many samples there are. The less remains, the fewer samples the rest
-// takes: at most 0.6 is aimed at, and with more than 0.9 they would be too many.
+// Shares of the bound that may remain however many samples there are. The less remains, the fewer samples the
+// rest takes: at most 0.6 is aimed at, and with more than 0.9 too many would be needed.
 static const double FLOOR_AIM = 0.6, FLOOR_SHARE = 0.9;
-// Of the bound: what more may remain where less is traced.
+// Share of the bound: how much more may remain if less is traced.
 static const double LOWER_SHARE = 0.1;
-// Of the time that is left, for the next try.
+// Share of the remaining time, for the next try.
 static const double TIME_SHARE = 0.97;
 
 struct searching {
@@ -71,7 +71,7 @@ static bool keeps(const struct searching *s, const struct row *row) {
     return error_of(s, row) <= s->input->error_most;
 }
 
-// What is proportional to the size of the differences, of a value as metric_error has it.
+// The amount proportional to the size of the differences, from a value as metric_error has it.
 static double amount_of(enum metric metric, double error) {
     return metric == METRIC_PSNR     ? pow(10, error / 20)
            : metric == METRIC_SSIM   ? sqrt(fmax(1 + error, 0))
@@ -93,12 +93,12 @@ struct climb {
     double before_samples, before_amount; // of the one before it; 0: there was none
 };
 
-// What of an amount is due to chance. The two add up as independent errors do.
+// The part of an amount that is due to chance. The two parts add up like independent errors.
 static double by_chance(const struct climb *c, double amount) {
     return amount > c->floor ? sqrt(amount * amount - c->floor * c->floor) : 0;
 }
 
-// To which power of the samples errors by chance fall, going by the last two rows.
+// The power of the samples with which errors by chance fall, judging by the last two rows.
 static double falls(const struct climb *c) {
     const double now = by_chance(c, c->amount), before = by_chance(c, c->before_amount);
     if (!(c->before_samples >= 2) || !(now > 0) || !(before > 0))
@@ -106,7 +106,7 @@ static double falls(const struct climb *c) {
     return fmin(fmax(log(before / now) / log(c->samples / c->before_samples), FALLS_LEAST), FALLS_MOST);
 }
 
-// That keep the bound, going by the last rows.
+// The number of samples that keep the bound, judging by the last rows.
 static double foretold(const struct plan_search_input *in, const struct climb *c, double power) {
     const double bound = by_chance(c, amount_of(in->metric, in->error_most));
     return bound > 0 ? c->samples * pow(by_chance(c, c->amount) / bound, 1 / power) : (double)INFINITY;
@@ -147,7 +147,7 @@ static struct setting probe_of(const struct setting *setting) {
     return s;
 }
 
-// The amount that remains of a setting, however many samples there are; 0: nothing is known of it.
+// The amount of error that remains with a setting, however many samples there are; 0: unknown.
 static double floor_of(enum metric metric, const struct row *rows, uint32_t count, const struct setting *at) {
     const struct setting probe = probe_of(at);
     for (uint32_t i = 0; i < count; i++)
@@ -179,8 +179,8 @@ static const struct row *climb(struct searching *s, struct setting *at) {
     return NULL;
 }
 
-// The first setting of which no more remains than this share of the bound, with longer paths where the file
-// cuts too much for it. false: there is none, or it must be measured first.
+// Finds the first setting with which no more than this share of the bound remains, with longer paths if the
+// file cuts too much for it. false: there is none, or it must be measured first.
 static bool is_deep_enough(struct searching *s, struct setting *at, double share) {
     const double most = share_of_bound(s->input, share);
     for (int i = 0; i <= DEEPER_MOST; i++) {
@@ -204,8 +204,8 @@ static bool is_in_reach(struct searching *s, struct setting *at) {
     return true;
 }
 
-// What may remain of the error where less is traced, as amount_of: what remains now and a part of the bound,
-// or what a sample leaves of it.
+// How much error may remain if less is traced, as amount_of: what remains now plus a part of the bound, or
+// what a sample leaves of it.
 static double allowance(struct searching *s, const struct setting *at) {
     struct setting one = probe_of(at);
     const struct row *probe = ask(s, &one);
@@ -219,11 +219,11 @@ static double allowance(struct searching *s, const struct setting *at) {
     return floor + fmax(fmin(LOWER_SHARE * bound, FLOOR_SHARE * bound - floor), left);
 }
 
-// Settings from coarse to fine, all coarser than *at: the coarsest of which no more remains than is allowed,
-// by halving.
+// Among settings from coarse to fine, all coarser than *at, finds by halving the coarsest with which no more
+// error remains than allowed.
 static void lower(struct searching *s, struct setting *at, const struct setting *ladder, uint32_t count,
                   double allowed) {
-    uint32_t low = 0, high = count; // of all below `low` more remains; not of `high`, or it is *at itself
+    uint32_t low = 0, high = count; // all below `low` leave more; `high` does not, or it is *at itself
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
         const struct setting probe = probe_of(&ladder[middle]);
@@ -286,7 +286,7 @@ static void lower_others(struct searching *s, struct setting *at, double allowed
 
 static void by_error(struct searching *s) {
     struct setting at = s->input->base;
-    at.error = 0; // the search says how many samples there are
+    at.error = 0; // the search determines the number of samples
     if (!is_in_reach(s, &at))
         return;
     const double allowed = allowance(s, &at);
@@ -301,7 +301,7 @@ static void by_error(struct searching *s) {
 
 // ---- by time
 
-// How many samples of the row's setting fit into the time, going by the row's own.
+// How many samples of the row's setting fit into the time, judging by the row's own.
 static uint32_t samples_in(const struct searching *s, const struct row *row) {
     const double fit = s->input->time_most_ms / row->time_ms * row->setting.samples;
     return fit >= SEARCH_SAMPLES_MOST ? SEARCH_SAMPLES_MOST : fit >= 1 ? (uint32_t)fit : 0;
@@ -318,13 +318,13 @@ static uint32_t fill(struct searching *s, struct setting at, uint32_t more_than)
     const struct row *row = ask(s, &at);
     if (!row || row->time_ms <= s->input->time_most_ms)
         return fit;
-    // One sample told too little of the others.
+    // One sample told too little about the others.
     at.samples = (uint32_t)fmax(TIME_SHARE * samples_in(s, row), 1);
     ask(s, &at);
     return at.samples;
 }
 
-// Shorter paths, and lighter ones left out.
+// Shorter paths, with lighter ones left out.
 static struct setting cheaper(const struct searching *s, const struct setting *at) {
     const uint32_t own = at->max_depth < s->input->deepest ? at->max_depth : s->input->deepest;
     struct setting c = *at;
@@ -335,7 +335,7 @@ static struct setting cheaper(const struct searching *s, const struct setting *a
 
 static void by_time(struct searching *s) {
     struct setting at = s->input->base;
-    at.error = 0; // the search says how many samples there are
+    at.error = 0; // the search determines the number of samples
     uint32_t fit = fill(s, at, 0);
     for (int i = 0; s->input->bounces && !s->pending && at.max_depth > 0 && i < (fit ? 2 : 8); i++) {
         at = cheaper(s, &at);

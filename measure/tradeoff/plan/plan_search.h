@@ -1,11 +1,11 @@
-// Which settings are tried when a few must do: for render, which wants an answer and no table. Private to
-// measure/tradeoff.
+// Which settings are tried when a few must be enough: for render, which wants an answer, not a table. Private
+// to measure/tradeoff.
 //
-// For a bound of the error: what is traced is lowered, one knob after the other, where a few samples of a
-// small picture show that little more remains of the error, or made longer where the file's paths are too
-// short for the bound; then samples are added until the bound is kept, as many as the rows so far foretell.
-// For a bound of the time: as many samples as fit, and the same with shorter paths. The search is a function
-// of the rows that were measured: the same rows, the same next one. Thread safety: pure.
+// For a bound on the error: less is traced, one knob after the other, if a few samples of a small picture
+// show that little more error remains, or paths are made longer if the file's are too short for the bound;
+// then samples are added until the bound is kept, as many as the rows so far predict. For a bound on the
+// time: as many samples as fit, and the same with shorter paths. The search is a function of the rows that
+// were measured: the same rows give the same next one. Thread safety: pure.
 #ifndef GLINT_MEASURE_TRADEOFF_PLAN_PLAN_SEARCH_H
 #define GLINT_MEASURE_TRADEOFF_PLAN_PLAN_SEARCH_H
 
@@ -28,10 +28,10 @@ struct plan_search_input {
     bool allow_resolution;
 };
 
-// Describes the row to be measured next. false: nothing more is worth it.
+// Describes the row to be measured next. false: no further row is worth it.
 bool plan_search_next(const struct plan_search_input *input, const struct row *rows, uint32_t count,
                       struct row *next);
-// What the rows of a search for a bound of the error say of it, where none keeps it.
+// What the rows of a search for a bound on the error tell about it, if none keeps it.
 struct search_verdict plan_search_verdict(const struct plan_search_input *input, const struct row *rows,
                                           uint32_t count);
 
@@ -50,20 +50,20 @@ struct plan_search_pilot {
 
 // Rays that a sample of the ground truth may take on average.
 double plan_search_rays(void);
-// How large a picture, of how many samples, the reference makes where a sample takes so many rays: pixels are
-// at most those of the file.
+// The size and samples of the picture that the reference makes if a sample takes this many rays: it has at
+// most the file's pixels.
 struct plan_search_probe {
     uint32_t width, height, samples;
 };
 struct plan_search_probe plan_search_probe(const struct setting *base, double rays);
-// Rays per sample of the pilot to be counted next; 0: what is known is enough. `bearable`: a change that does
-// not matter.
+// Rays per sample of the pilot to be counted next; 0: enough is known. `bearable`: a change that does not
+// matter.
 uint64_t plan_search_pilot(const struct plan_search_pilot *pilots, uint32_t count, double rays_most,
                            uint64_t segments_most, double bearable);
 
-// The mean of a pixel's first `samples` samples, and that of the last `newer` of `older` + `newer`: how many
-// times as far as from each other the first is from the truth. At least what chance makes of it, and at least
-// what straight edges do.
+// For the mean of a pixel's first `samples` samples and that of the last `newer` of `older` + `newer`: the
+// distance of the first from the truth over the distance between them. At least what chance gives, and at
+// least what straight edges give.
 double plan_search_reach(uint32_t samples, uint32_t older, uint32_t newer);
 
 #endif

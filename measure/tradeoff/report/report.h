@@ -6,9 +6,9 @@
 
 #include "measure/tradeoff/study/study.h"
 
-// The answers alone, and what was left out: part of the text.
+// Only the answers, and what was left out: part of the text.
 void tradeoff_answers(const struct tradeoff *study, struct strbuf *out);
-// Of a search: what it took, and what its errors are.
+// For a search: what it took, and what its errors are.
 void tradeoff_search_notes(const struct tradeoff *study, struct strbuf *out);
 void tradeoff_notes(const struct tradeoff *study, struct strbuf *out);
 

@@ -40,7 +40,7 @@ static const char STYLE[] =
     "img{width:48%;image-rendering:pixelated}"
     ".card div{font-size:13px}";
 
-// A click sorts by a column: by number where there are numbers, again the other way.
+// A click sorts by a column, numerically if it has numbers; a second click reverses the order.
 static const char SCRIPT[] =
     "document.querySelectorAll('table').forEach(t=>t.querySelectorAll('th').forEach((h,c)=>h.onclick=()=>{"
     "const b=t.tBodies[0],up=h.dataset.up!=='1';"

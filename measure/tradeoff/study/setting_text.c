@@ -41,7 +41,8 @@ static void put_integer(struct assignment *list, uint32_t *count, const char *el
     put(list, count, element, attribute, text);
 }
 
-// What differs, image first. Precision is written wherever it is not what the file's 'auto' came to.
+// What differs, image first. Precision is written whenever it differs from what the file's 'auto' resolved
+// to.
 static uint32_t assignments(const struct setting *s, const struct setting *base,
                             struct assignment list[ASSIGNMENTS_MAX]) {
     uint32_t count = 0;

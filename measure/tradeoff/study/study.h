@@ -1,9 +1,9 @@
-// A study of settings as data: what it is given and asked, its rows, what it found.
+// A study of settings as data: its input and options, its rows, its findings.
 //
-// A row is a setting, what it was measured to cost and what error it brings; the first is the file's own.
-// What measures, chooses and reports shares this, and no more. Ownership: struct tradeoff owns its rows and
-// their pictures (tradeoff_finish frees them); the rest is the caller's. Units are in the names. Thread
-// safety: plain data.
+// A row is a setting, its measured cost and its error; the first is the file's own. The code that measures,
+// chooses and reports shares this and nothing else. Ownership: struct tradeoff owns its rows and their
+// pictures (tradeoff_finish frees them); the rest is the caller's. Units are in the names. Thread safety:
+// plain data.
 #ifndef GLINT_MEASURE_TRADEOFF_STUDY_STUDY_H
 #define GLINT_MEASURE_TRADEOFF_STUDY_STUDY_H
 
@@ -23,7 +23,7 @@ enum {
     SEARCH_SAMPLES_MOST = RANGE_SAMPLES_MOST,
 };
 
-// What a whole study may take where nothing else is asked for, in seconds.
+// How long a whole study may take by default, in seconds.
 #define TRADEOFF_BUDGET_S 60
 
 enum knob {
@@ -42,7 +42,7 @@ enum knob {
     KNOB_ROUGHNESS,
     KNOB_FILTER,
     KNOB_FEATURES,    // what is compiled in: not a setting of the file, never chosen
-    KNOB_ALTERNATIVE, // other tracers' ways: never chosen
+    KNOB_ALTERNATIVE, // other tracers' methods: never chosen
     KNOB_COUNT,
 };
 
@@ -64,24 +64,24 @@ struct setting {
     enum render_alternative alternative;
 };
 
-// Whether pixels end by their error: none does before it has the least samples.
+// Whether pixels end by their error: none does before it has min_samples.
 static inline bool setting_ends_pixels(const struct setting *s) {
     return s->error > 0 && s->samples > s->min_samples;
 }
 
-// What was counted; it does not vary from run to run.
+// Counted work; it does not vary from run to run.
 struct work {
     uint64_t rays, nodes, triangles; // rays of all kinds; nodes and triangles (spheres too) tested
-    uint32_t deepest;                // level of a ray that was traced
+    uint32_t deepest;                // deepest level of a traced ray
     double samples;                  // of a pixel, on average
     double cost;                     // nodes + triangles, doubled in double precision; see docs/accuracy.md
 };
 
-// Mean absolute errors of what comes one after the other; the signed errors add up to that of the picture.
+// Mean absolute errors of successive causes; their signed errors add up to the picture's.
 struct error_parts {
     bool known;
     double numeric;    // device against the reference at the same settings
-    double truncation; // what max_depth, min_weight, absent shadows and what else is absent leave out
+    double truncation; // left out by max_depth, min_weight, absent shadows and other absent parts
     double sampling;   // few samples against those of the ground truth
     double resolution; // fewer pixels, scaled up
 };
@@ -96,8 +96,8 @@ struct row {
     double time_low_ms, time_high_ms, noise_ms; // quartiles, standard error of the median
     double value[METRIC_COUNT];                 // as measure_result
     uint64_t not_finite;                        // pixels the device reported
-    // Of a search, as metric_error: what remains of the error with all samples, of a small picture; and what
-    // rounding to the file's format alone brings.
+    // For a search, as metric_error: the error that remains with all samples, in a small picture; and the
+    // error from rounding to the file's format alone.
     double floor, rounding;
     struct error_parts parts;
     struct hit_errors hits;
@@ -112,11 +112,11 @@ struct tradeoff_options {
     double max_time_ms;    // NaN: not asked
     double budget_s;       // wall time; 0: as long as it takes
     bool thumbnails;       // for a report with pictures
-    double end;            // clock: when it must be over; 0: when it may
-    bool search;           // for choosing alone, by few rows: no alternatives, hits, parts or rounds
-    bool allow_resolution; // of a search: smaller pictures, to be scaled up, may be chosen
+    double end;            // clock: when it must end; 0: no limit
+    bool search;           // only for choosing, from few rows: no alternatives, hits, parts or rounds
+    bool allow_resolution; // for a search: smaller pictures, to be scaled up, may be chosen
     double threshold, ppd; // of the metrics
-    double levels;         // of a search: steps of the format that is written; 0: it is not rounded
+    double levels;         // for a search: steps of the format that is written; 0: it is not rounded
 };
 
 struct tradeoff_input {
@@ -128,7 +128,7 @@ struct tradeoff_input {
     struct diag_sink *sink;
     struct gpu *gpu;
     struct folder_store store; // of the reference
-    bool is_double;            // what precision 'auto' comes to
+    bool is_double;            // what precision 'auto' resolves to
 };
 
 enum tradeoff_status {
@@ -139,12 +139,12 @@ enum tradeoff_status {
     TRADEOFF_MEMORY,
 };
 
-// Why a search found nothing that keeps the error, and what would.
+// Why a search found nothing that keeps the error, and what would keep it.
 enum search_reason {
     SEARCH_UNKNOWN,
-    SEARCH_SAMPLES, // more samples: about so many, which take so long
-    SEARCH_FORMAT,  // no picture of the format does: rounding alone has the value
-    SEARCH_REMAINS, // no number of samples does: the value remains
+    SEARCH_SAMPLES, // more samples: about this many, which take this long
+    SEARCH_FORMAT,  // no picture in this format does: rounding alone has this value
+    SEARCH_REMAINS, // no number of samples does: this value remains
 };
 
 struct search_verdict {
@@ -152,7 +152,7 @@ struct search_verdict {
     double samples, seconds, value;
 };
 
-// Called with what is done, 0..1, and what is under way; false ends the study.
+// Called with the share done, 0..1, and the current step; false ends the study.
 struct tradeoff_progress {
     bool (*report)(void *context, double fraction, const char *what);
     void *context;
@@ -163,10 +163,10 @@ struct tradeoff {
     struct setting base; // the file's own
     struct row *rows;    // of a whole study [0] is the file's own setting
     uint32_t count, capacity;
-    uint32_t tried; // by a search: rows, and what showed on a small picture what to draw
+    uint32_t tried; // by a search: rows, and small pictures that showed what to draw
     uint32_t ground_truth_samples;
-    uint64_t ground_truth_segments;  // rays that a sample of the ground truth might take
-    bool ground_truth_cut;           // the budget lowered that, and some samples would have taken more
+    uint64_t ground_truth_segments;  // rays that a sample of the ground truth may take
+    bool ground_truth_cut;           // the budget lowered that limit, and some samples would have taken more
     double ground_truth_left_weight; // of the rays that the ground truth did not follow, mean of the pixels
     // For lack of time:
     uint32_t parts_out;  // rows without parts
@@ -185,7 +185,7 @@ struct tradeoff {
     double noise;  // share of a time below which two are equal
     double slope;  // errors (mae) fall as samples to this power; NaN: too few rows
     uint32_t knee; // CHOICE_NONE: none
-    struct choice cheapest, best_within, both; // the last where both bounds were asked for
+    struct choice cheapest, best_within, both; // the last if both bounds were asked for
 };
 
 // ---- what to paste (setting_text.c); only what differs from `base` is written.

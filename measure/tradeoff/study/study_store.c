@@ -36,7 +36,7 @@ static uint64_t hash_of(const struct tradeoff *study, const struct row *rows, si
     return xxh64_end(&h);
 }
 
-// The rows lie behind the head, in memory that need not be aligned for them.
+// The rows follow the head, in memory that may not be aligned for them.
 static struct row *rows_of(const char *bytes, size_t size, const uint64_t key[2], struct entry_head *head) {
     if (size < sizeof *head)
         return NULL;
@@ -82,7 +82,7 @@ void study_keep(const struct folder_store *store, const uint64_t key[2], const s
     struct entry_head head;
     if (study->count == 0 || study->count > ROWS_MOST)
         return;
-    // Padding too: an entry's bytes depend on nothing else.
+    // Clears padding too, so that an entry's bytes depend on nothing else.
     memset(&head, 0, sizeof head);
     memcpy(head.magic, MAGIC, sizeof MAGIC);
     head.head_bytes = sizeof head;

@@ -1,9 +1,9 @@
 // Searches that were made, kept for the next call.
 //
-// An entry is named by a key that the caller makes of all that the search read. Entries that are damaged, or
-// of another layout, are ignored and replaced. Ownership: study_recall fills a study that tradeoff_finish
-// frees. Errors: every failure is silent, as a lack of the store. Thread safety: several processes may share
-// a store.
+// An entry is named by a key that the caller makes from everything that the search read. Entries that are
+// damaged, or of another layout, are ignored and replaced. Ownership: study_recall fills a study that
+// tradeoff_finish frees. Errors: every failure is silent, as if there were no store. Thread safety: several
+// processes may share a store.
 #ifndef GLINT_MEASURE_TRADEOFF_STUDY_STUDY_STORE_H
 #define GLINT_MEASURE_TRADEOFF_STUDY_STUDY_STORE_H
 
