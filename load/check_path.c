@@ -40,7 +40,7 @@ static void walk_list(struct search *s, const struct schema_row *row, const void
     for (uint32_t i = 0; i < list.count; i++) {
         const void *item = ir_walk_item(row, list, i);
         if (ir_walk_is_anonymous(row->child, item))
-            continue; // is written where it is used
+            continue; // written inline, where it is used
         const struct ir_head *head = ir_walk_head(item);
         uint32_t index = position++;
         if (head->origin >= s->session->origin.elements.count)
