@@ -21,7 +21,7 @@ static size_t row_bytes(const struct bands *bands) {
     return heap_times(bands->part.region.width, 3 * sizeof(float));
 }
 
-// Where a band begins; of bands->count, where the last one ends at most.
+// Where a band begins; for bands->count, the most where the last one can end.
 static uint64_t place_of(const struct bands *bands, uint32_t band) {
     const uint64_t bytes = (uint64_t)row_bytes(bands) * bands->rows + sizeof *bands->faults + SEAL_BYTES;
     return BANDS_HEAD_BYTES + band * bytes;
@@ -85,7 +85,7 @@ static bool take_head(struct bands *bands, char *text) {
     seal = part_take_line(&at, "seal");
     if (!seal || sscanf(seal, "%16" SCNx64, &sum) != 1 || !prepare(bands, rows))
         return false;
-    // Reading has changed the text: what was read is written again.
+    // Reading has changed the text, so what was read is written again to check the seal.
     strbuf_init(&again);
     part_put_head(&bands->part, kind, &again);
     strbuf_format(&again, "bands %u\n", rows);

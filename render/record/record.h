@@ -67,8 +67,8 @@ bool record_read_command(str text, struct arena *arena, struct record_command *o
 // ...", a tab, "Scene hash: ..." and so on.
 void record_of_texts(const struct image_texts *texts, struct record_read *out);
 void record_of_line(str line, struct record_read *out);
-// Whether two records are of one picture: the same scene, version, device and settings, coded alike. Where
-// the scene is and an audit's note do not count. false also where one is not a record.
+// Whether two records are of one picture: the same scene, version, device and settings, coded alike. The
+// scene's path and an audit's note do not count. Also false if one is not a record.
 bool record_same(const struct record_read *a, const struct record_read *b, struct arena *arena);
 
 #endif
