@@ -3,8 +3,9 @@
 //
 // A document that another scene includes is checked as a part of that scene, not by itself, because it would
 // lack what the others define. Candidates for scenes are open documents, and scene files beside the document
-// or in the folders above it, up to the scene's root. A document counts as a scene by its name (`*.glint.*`)
-// or by its text, so that other YAML and XML files are ignored; `.glintrc.yaml` is checked as settings.
+// or in the folders above it, up to the scene's root.
+// A document counts as a scene by its name (`*.glint.*`) or by its text, so that other YAML and XML files are
+// ignored; `.glintrc.yaml` is checked as settings.
 // Ownership: scenes_finish frees all. Thread safety: one thread.
 #ifndef GLINT_LSP_SCENE_H
 #define GLINT_LSP_SCENE_H

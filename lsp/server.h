@@ -4,7 +4,8 @@
 // It offers what a schema cannot: every diagnostic of `glint check` while the user types, with its fixes;
 // definitions and uses of names, across includes and spellings; meshes, images and includes as links; names,
 // words and files as completions; the outline; formatting. It reads files and writes none: changes are sent
-// to the editor. Thread safety: one thread; previews are drawn on one of their own.
+// to the editor.
+// Thread safety: one thread; previews are drawn on one of their own.
 #ifndef GLINT_LSP_SERVER_H
 #define GLINT_LSP_SERVER_H
 

@@ -29,7 +29,8 @@ struct import_plan {
 };
 
 // `out`: the path that the scene will have; empty: it is not written to a file, and materials stay in the
-// glTF file. `around`: import_around.
+// glTF file.
+// `around`: import_around.
 bool import_plan_make(struct gltf_document *document, const struct ir_scene *around, str out,
                       struct import_plan *plan);
 void import_plan_write(const struct import_plan *plan, enum import_spelling spelling, struct strbuf *text);

@@ -2,10 +2,10 @@
 //
 // live_load reloads everything but repeats only the work that it must: it does not read a mesh whose file is
 // the same, build a tree over the same boxes, write to the device what is there already, or compile a kernel
-// again. A scene with errors changes nothing: the previous one is still shown. Two things are decided when
-// the geometry is loaded and stay while it is edited: the place that coordinates are relative to, and the
-// precision that `auto` chooses. So after the first camera moved, a picture may be rounded differently from
-// that of a program that has just started.
+// again. A scene with errors changes nothing: the previous one is still shown.
+// Two things are decided when the geometry is loaded and stay while it is edited: the place that coordinates
+// are relative to, and the precision that `auto` chooses. So after the first camera moved, a picture may be
+// rounded differently from that of a program that has just started.
 //
 // Input: options as for a session; a device. Errors: enum live_state. Ownership: live_finish frees all but
 // the device, and accepts a live that live_begin refused. Thread safety: the gpu's thread.
@@ -84,8 +84,8 @@ void live_finish(struct live *live);
 // Reads everything again. Whatever the result, the files that it read are watched from now on.
 enum live_state live_load(struct live *live);
 // The two halves of live_load, for a scene and settings that change. live_read may run on another thread
-// during a frame of the shot, one call at a time; pass its result to live_show or live_drop. `again`: the
-// same files are read for other scenes too, so their text is kept.
+// during a frame of the shot, one call at a time; pass its result to live_show or live_drop.
+// `again`: the same files are read for other scenes too, so their text is kept.
 struct live_loaded live_read(struct live *live, const struct session_options *options, bool again);
 enum live_state live_show(struct live *live, struct live_loaded loaded, str camera);
 void live_drop(struct live_loaded loaded);
