@@ -63,8 +63,8 @@ static size_t skip_to_content(str text, size_t at, bool is_xml) {
     return at;
 }
 
-// Where the XML tag that begins at `at` ends. No comment can be inside a tag, so that one before it, or after
-// it, applies to all of its lines.
+// Where the XML tag that begins at `at` ends. No comment can be inside a tag, so one before or after it
+// applies to all of its lines.
 static size_t tag_end(str text, size_t at) {
     char quote = '\0';
     for (; at < text.len; at++) {

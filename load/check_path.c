@@ -16,7 +16,7 @@ static bool holds(span outer, span at) {
     return outer.source == at.source && outer.begin <= at.begin && at.begin < outer.end;
 }
 
-// Keeps the path if its span is the tightest that contains the place.
+// Keeps the path if its span is the tightest so far that contains the place.
 static bool offer(struct search *s, span outer, str path) {
     if (!holds(outer, s->at))
         return false;

@@ -106,7 +106,7 @@ void session_settle(struct session *session);
 void session_no_memory(struct session *session, const char *what);
 // Reports that the picture has more pixels than can be held at once.
 void session_report_pixels(struct session *session);
-// What is reported about a scene file that cannot be read.
+// The code that is reported for a scene file that cannot be read.
 diag_code session_file_code(enum file_status status);
 // The input for reading meshes and images of the loaded scene; it points into the session.
 struct assets_input session_assets_input(struct session *session);

@@ -103,7 +103,7 @@ int render_in_bands(struct rendering *r, uint32_t camera);
 // cli/commands/pictures/done.c, --skip-done: whether the outputs can say that they are done; as
 // render_judge_part.
 int render_judge_done(const struct rendering *r);
-// Whether the file at `path` is what an output would be, through the job's camera.
+// Whether the file at `path` equals what an output would be through the job's camera.
 bool render_output_is_done(const struct rendering *r, const struct cli_output *output, const char *path);
 // Finds the cameras whose outputs are all there, says so, and moves `first`
 // past those at the beginning. The session is settled, and the device open.

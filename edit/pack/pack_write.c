@@ -221,7 +221,8 @@ static bool is_taken(const char *path) {
     return look.taken;
 }
 
-// A new folder beside `out`, so that it can be renamed. Its name does not grow with that of `out`.
+// Makes a new folder beside `out`, so that it can be renamed. Its name does not get longer with that of
+// `out`.
 static bool make_folder_beside(const char *out, size_t length, char *folder, struct pack_error *error) {
     while (length > 0 && out[length - 1] != '/')
         length--;

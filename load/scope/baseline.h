@@ -1,4 +1,4 @@
-// A baseline: the findings of a check that are known, so that only new ones are reported.
+// A baseline: the known findings of a check, so only new ones are reported.
 //
 // A finding is recognised by its file, its code, the words of its message and the text of its line. Numbers
 // in the message and the line number do not count, so text added above does not make it new. For findings

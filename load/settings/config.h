@@ -43,7 +43,7 @@ struct config_input {
 void config_read(const struct config_input *input, uint32_t source, str path, struct config *config);
 // Reads the settings at `path`, absolute or not; diagnostics call the file `shown`.
 void config_read_file(const struct config_input *input, str path, str shown, struct config *config);
-// Finds and reads it; a zeroed config if there is none.
+// Finds and reads the configuration of a scene; a zeroed config if there is none.
 void config_load(const struct config_input *input, str scene_path, struct config *config);
 
 #endif

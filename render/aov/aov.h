@@ -14,7 +14,7 @@
 #include "scene/view.h"
 
 // name, channels (as OpenEXR calls them), whether they are whole numbers, whether they are made from first
-// hits. The last one is apart, so that lists of names have no separator after it.
+// hits. The last one is separate, so lists of names have no separator after it.
 #define AOV_TABLE_BUT_LAST(X)                                                                                \
     X(DEPTH, "depth", "Z", false, true)                                                                      \
     X(NORMAL, "normal", "XYZ", false, true)                                                                  \

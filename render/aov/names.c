@@ -28,7 +28,7 @@ static struct aov_name object_of(const struct session *session, uint32_t body, s
                              .at = where.at};
 }
 
-// Names each material of a body after the first triangle that shows it.
+// Names each material of a body, found by the first triangle that shows it.
 static void name_materials_of(const struct session *session, uint32_t number, const char *object,
                               struct arena *arena, struct aov_name *materials) {
     const struct scene_body *body = &session->resolved.bodies[number];

@@ -57,7 +57,8 @@ static void watch_reads(struct live *live, const struct session *session) {
         watch_add_missing(live->watch, session->files.missed.items[i]);
 }
 
-// A scene with errors may end before it has read all that the good one did.
+// Loading a scene with errors may stop before it has read all files of the good one, so those are watched
+// too.
 static void watch_all(struct live *live, const struct session *loaded) {
     watch_begin(live->watch);
     watch_reads(live, loaded);
@@ -68,7 +69,7 @@ static void watch_all(struct live *live, const struct session *loaded) {
 
 // ---- counters
 
-// What is read is counted in live_loaded: reading may run in parallel with what is counted here.
+// Files read are counted in live_loaded, because reading may run in parallel with what is counted here.
 static struct live_change counters_of(const struct live *live) {
     return (struct live_change){.trees_built = bvh_keep_built(live->keep),
                                 .trees_kept = bvh_keep_found(live->keep),

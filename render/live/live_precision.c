@@ -69,7 +69,7 @@ static void look(void *context) {
         return;
     live->measured = now;
     live->has_measured = true;
-    // Large scenes are only measured, whoever asks.
+    // Large scenes are only measured, never traced.
     l->keeps = choice->traced ? is_like(&choice->report, &now, choice->needs_double)
                               : now.suffices == !choice->needs_double;
 }

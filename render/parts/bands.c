@@ -12,7 +12,7 @@
 
 enum {
     SEAL_BYTES = 8,
-    READ_BYTES = 1 << 20, // at a time, where bands are judged
+    READ_BYTES = 1 << 20, // at a time, when bands are judged
 };
 
 static const char kind[] = "checkpoint";
@@ -94,7 +94,7 @@ static bool take_head(struct bands *bands, char *text) {
     return good;
 }
 
-// Whether a band is whole; then *faults is what it has.
+// Whether a band is whole; if so, *faults gets its faults.
 static bool is_whole(struct bands *bands, uint32_t band, void *buffer, struct bands_faults *faults) {
     uint64_t at = place_of(bands, band), sum;
     size_t left = row_bytes(bands) * bands_rows(bands, band);

@@ -27,7 +27,7 @@ enum {
     BANDS_FAULT_WORDS = 7,
 };
 
-// What was wrong in a band, for who made it; zeros: nothing.
+// What was wrong in a band, as its maker encodes it; zeros: nothing.
 struct bands_faults {
     uint32_t words[BANDS_FAULTS][BANDS_FAULT_WORDS];
 };

@@ -14,9 +14,9 @@ struct parts_fault {
     uint32_t part, other; // numbers of the parts; PARTS_NONE: none
 };
 
-// Whether the parts, of which the heads are enough, are of one picture, and cover all its pixels and samples
-// once. `order` gets their numbers in the order in which they must be added. false: fault->text says why;
-// where that is empty, there is no memory.
+// Whether the parts are of one picture, and cover all its pixels and samples once. Their heads are enough.
+// `order` gets their numbers in the order in which they must be added. false: fault->text says why; where
+// that is empty, there is no memory.
 bool parts_fit(const struct part *parts, uint32_t count, uint32_t *order, struct parts_fault *fault);
 // How two parts differ that should be of one picture, as words that stand between their names ("is of another
 // scene than"); NULL: they do not.

@@ -3,8 +3,8 @@
 //
 // Only what changes the picture is in it: no time, no folder that the user did not write, neither the name of
 // the output nor options that change no pixel. So the same command writes the same bytes, and so does one
-// that says the same otherwise (--time against the samples that it allowed). Ownership: text lies in the
-// given arena, whose guard the caller sets. Thread safety: pure.
+// that says the same in other words (such as --time, and the samples that it allowed). Ownership: text lies
+// in the given arena, whose guard the caller sets. Thread safety: pure.
 #ifndef GLINT_RENDER_RECORD_RECORD_H
 #define GLINT_RENDER_RECORD_RECORD_H
 

@@ -1,4 +1,4 @@
-// The page: a text, what is wrong with it, and its picture. Nothing is fetched but the files beside it.
+// The page: a text, its findings, and its picture. It fetches only the files beside it.
 import { Editor, connect, isXml } from './editor.js';
 import { Glint, compile, compileForGpu } from './glint.js';
 import { decodeLink, encodeLink } from './link.js';

@@ -1,5 +1,5 @@
-// --resume of many pictures: a checkpoint that says which of them are written, so that another process goes
-// on with the others.
+// --resume of many pictures: a checkpoint that says which of them are written, so another process can go on
+// with the others.
 //
 // It begins with lines of text, filled up to HEAD_BYTES: what the list is, by a hash, and how many pictures
 // it has. A slot for each picture follows, written once the picture's files have their names. However the

@@ -164,7 +164,7 @@ static void take_loaded(struct batch_run *run, uint32_t number) {
     run->counts.loads++;
 }
 
-// Whether a picture shows the scene of the one before, in the frame after its own.
+// Whether a picture shows the scene of the previous one, in the next frame.
 static bool is_next_frame(const struct batch_run *run, uint32_t number) {
     const struct batch_job *job = &run->batch.jobs.items[number];
     if (number == 0 || !job->has_frame)
@@ -196,7 +196,7 @@ static enum live_state show(struct batch_run *run, uint32_t number) {
     return state;
 }
 
-// The camera of this name; IR_NO_INDEX: there is none, which showing it reports.
+// The camera of this name; IR_NO_INDEX: there is none, which is reported when it is to be shown.
 static uint32_t camera_of(const struct session *session, str name) {
     const struct ir_cameras *cameras = &session->scene->cameras;
     for (uint32_t i = 0; i < cameras->count; i++)

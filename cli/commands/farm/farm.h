@@ -31,7 +31,7 @@ struct farm_plan {
     uint32_t frames, tiles, chunk, tasks;
     const char *root;   // absolute: the folder that the other paths are relative to
     const char *scene;  // that tasks render
-    const char *output; // pattern of pictures: frame_name, where there are frames
+    const char *output; // pattern of pictures' names, for frame_name if there are frames
     const char *part;   // a part's name before the tile's number and ".part"; NULL: one tile
     const char *folder; // of plan, script and logs; NULL: the script goes to standard output
     struct farm_pilot pilot;

@@ -34,7 +34,7 @@ static int failed(struct pilot *p, const struct job *drawn, enum shot_status sta
     return render_not_drawn(p->cli, drawn, status, false);
 }
 
-// One small picture; *seconds is what it took.
+// Draws one small picture; *seconds gets its time.
 static enum shot_status take(struct pilot *p, struct job *drawn, uint32_t width, uint32_t height,
                              double *seconds) {
     const uint32_t samples = (uint32_t)drawn->session->image->samples;

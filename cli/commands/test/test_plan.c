@@ -312,7 +312,7 @@ static int add_entries(struct plan *plan) {
 
 // ---- all of them
 
-// By device, then by scene, so that each is opened or read only once.
+// By device, then by scene, so each is opened or read only once.
 static int compare(const void *a, const void *b) {
     const struct test_case *x = a, *y = b;
     const int by_device = str_compare(x->settings.device, y->settings.device);
