@@ -16,16 +16,16 @@ enum cli_exit {
     CLI_USAGE = 2,
     CLI_FILE = 3,     // the scene file cannot be read, an output cannot be written, or memory ran out
     CLI_DEVICE = 4,   // no usable device
-    CLI_REFUSED = 5,  // what a file named is outside its folder, or --untrusted does not allow what is needed
-    CLI_STOPPED = 75, // by a signal, and a checkpoint is there to go on from (EX_TEMPFAIL of sysexits.h)
+    CLI_REFUSED = 5,  // a file names something outside its folder, or --untrusted forbids what is needed
+    CLI_STOPPED = 75, // by a signal, with a checkpoint to go on from (EX_TEMPFAIL of sysexits.h)
     CLI_INTERRUPTED = 130,
-    CLI_PIPE = 141, // who read standard output has closed it, as if by SIGPIPE
+    CLI_PIPE = 141, // the reader of standard output has closed it, as if by SIGPIPE
     CLI_TERMINATED = 143,
 };
 
-// Standard input that an operand '-' names.
+// Standard input, named by an operand '-'.
 struct cli_stream {
-    str path; // as shown: what it would have as a file; empty: no operand names it
+    str path; // as shown: the path that it would have as a file; empty: no operand names it
     struct file_overlay overlay;
 };
 
@@ -47,9 +47,10 @@ struct cli {
     struct cli_stream stream;
     const struct cli_command *command; // that runs
     struct cli_list fixed;             // files whose fixes were shown
-    str named_in; // the folder of a file that names what is read: nothing outside is; empty: there is none
-    bool names_scene;           // it names the scene, too
-    uint32_t named_asset_paths; // how many of the last of options.asset_paths it names
+    str named_in; // the folder of a file that names what is read: nothing outside it is read; empty: there is
+                  // none
+    bool names_scene;           // that file also names the scene
+    uint32_t named_asset_paths; // number of paths at the end of options.asset_paths that it names
     struct cli_made *made;      // names of outputs that were judged (made.h); NULL: none yet
 };
 
@@ -66,9 +67,9 @@ struct cli_command {
 // cli_session_options knows. CLI_OK, or an exit code with the mistake reported.
 int cli_take_stream(struct cli *cli, const struct cli_command *command);
 bool cli_is_stream(const struct cli *cli, const char *path);
-// Its name in messages.
+// The stream's name in messages.
 str cli_stream_name(struct cli *cli);
-// All of it; CLI_OK, or CLI_FILE with an error printed.
+// Reads all of it; CLI_OK, or CLI_FILE with an error printed.
 int cli_read_stream(struct cli *cli, struct strbuf *text);
 
 // Whether text for this descriptor has colours: --color, then NO_COLOR, then CLICOLOR_FORCE, then a terminal.
@@ -80,7 +81,7 @@ span cli_place(const struct cli *cli, int arg);
 int cli_operand_place(const struct cli *cli, int index);
 // Reports one error of the command line and returns CLI_USAGE.
 int cli_usage(struct cli *cli, int arg, const char *format, ...) __attribute__((format(printf, 3, 4)));
-// Adds to it the name that may be meant, or else, unless it is NULL, other help.
+// Adds to that error the name that may be meant or else, unless it is NULL, other help.
 void cli_did_you_mean(struct cli *cli, const struct nearest *search, const char *otherwise);
 // Prints diagnostics of the command line and of files in cli->sources.
 void cli_print_sink(struct cli *cli, const struct diag_sink *sink);
@@ -88,7 +89,8 @@ void cli_print_sink(struct cli *cli, const struct diag_sink *sink);
 int cli_report(struct cli *cli, struct session *session, bool notes);
 // Only the exit code.
 int cli_session_status(const struct session *session);
-// How many findings that are alike are shown (diag/diag_text.h): who names a number of messages gets as many.
+// How many similar findings are shown (diag/diag_text.h); a number of messages that the user names is
+// respected.
 uint32_t cli_text_alike(const struct limits *limits);
 // Text for people, to standard error.
 void cli_write_error(str text);
@@ -97,8 +99,8 @@ void cli_error(struct cli *cli, diag_code code, const char *path, const char *he
     __attribute__((format(printf, 5, 6)));
 // Reports that a signal ended the work (progress.h); returns its exit code.
 int cli_interrupted(struct cli *cli);
-// Whether a scene's file can be opened: CLI_OK, or CLI_FILE with an error printed. For who opens a device or
-// a window first.
+// Whether a scene's file can be opened: CLI_OK, or CLI_FILE with an error printed. For commands that open a
+// device or a window first.
 int cli_try_scene(struct cli *cli, const char *path);
 struct session_options cli_session_options(const struct cli *cli, const char *path);
 // Where render writes without -o: the scene's name without its endings, in the current folder:
@@ -108,7 +110,8 @@ const char *cli_default_picture(struct cli *cli, const char *scene);
 int cli_print(struct cli *cli, str text);
 // Writes a whole file (or "-"); CLI_OK or CLI_FILE with an error printed.
 int cli_write(struct cli *cli, const char *path, str bytes);
-// Reports that, and returns its exit code: CLI_FILE, or CLI_PIPE for a standard output that nobody reads.
+// Reports a failed write, and returns its exit code: CLI_FILE, or CLI_PIPE for a standard output that nobody
+// reads.
 int cli_not_written(struct cli *cli, const char *path, int error);
 // The same as cli_write for what was made in memory, called `what` in messages: if memory ran out, CLI_FILE
 // with an error printed.
@@ -116,8 +119,8 @@ int cli_write_made(struct cli *cli, const char *path, const struct strbuf *made,
 // The same for a file that something other than the user has named: below a root (files.h). CLI_REFUSED
 // otherwise.
 int cli_write_named(struct cli *cli, struct files *files, str path, str bytes);
-// Whether the output can be made at all, which is better known before long work than after it: CLI_OK, or
-// CLI_FILE with an error printed. NULL: there is none.
+// Whether the output can be written at all, to know before long work: CLI_OK, or CLI_FILE with an error
+// printed. NULL: there is none.
 int cli_try_output(struct cli *cli, const char *path);
 
 #endif

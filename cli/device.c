@@ -48,7 +48,7 @@ static const char *driver_variable(void) {
     return NULL;
 }
 
-// A program without devices is what its package is for; what has them is another package.
+// This package is meant to have no devices; another package has them.
 static int no_devices(struct cli *cli, const char *place, const char *error) {
     cli_error(cli, DIAG_NO_VULKAN, place,
               "the package 'glint' draws on devices; 'glint render --device reference' needs none", "%s",
@@ -268,7 +268,7 @@ int cli_end_opening(struct cli *cli, struct cli_opening **opening, struct gpu **
     return status;
 }
 
-// A thread that is still at work keeps what it works on: the program then ends around it (main.c).
+// A thread that is still at work keeps its data; the program then ends while it runs (main.c).
 void cli_drop_opening(struct cli *cli, struct cli_opening *opening) {
     if (!opening)
         return;

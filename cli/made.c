@@ -18,7 +18,7 @@ struct cli_made {
         struct made_name *items;
         uint32_t count, capacity;
     } names;
-    str typed;     // the folder that was looked at last
+    str typed;     // the folder that was looked up last
     str canonical; // links resolved; empty: it is not there
 };
 
@@ -34,7 +34,7 @@ str cli_made_folder(struct cli *cli, str typed) {
     struct cli_made *made = made_of(cli);
     struct files files;
     if (made->canonical.len &&
-        str_equal(made->typed, typed)) // one that was not there may have been made since
+        str_equal(made->typed, typed)) // a folder that was missing may have been made since
         return made->canonical;
     files_init(&files, &cli->arena);
     made->typed = arena_copy(&cli->arena, typed);

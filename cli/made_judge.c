@@ -14,7 +14,7 @@ static int refuse(struct cli *cli, const char *typed, const char *path, enum fil
     return CLI_REFUSED;
 }
 
-// How much of a path is the folder that the user typed: of what both begin with.
+// The length of the folder that the user typed: the part that both paths begin with.
 static size_t typed_length(const char *typed, const char *path) {
     size_t same = 0;
     while (typed[same] && typed[same] == path[same])
@@ -28,7 +28,7 @@ static bool is_kind(const struct stat *there, bool is_folder) {
     return is_folder ? S_ISDIR(there->st_mode) : S_ISREG(there->st_mode);
 }
 
-// A name with links in it, or in folders that are not those that were typed.
+// Judges a name that has links in it, or lies in folders that were not typed.
 static int judge_links(struct cli *cli, const char *typed, const char *path, str folder, bool is_folder) {
     struct files files;
     struct stat there;
@@ -54,7 +54,7 @@ static int judge(struct cli *cli, const char *typed, const char *path, bool is_f
     if (strcmp(typed, path) == 0 || strcmp(path, "-") == 0)
         return CLI_OK;
     const str folder = cli_made_folder(cli, length ? (str){path, length} : STR("."));
-    if (!folder.len) { // writing says so
+    if (!folder.len) { // writing reports that
         cli_keep_made(cli, path, (struct made_name){NULL, path});
         return CLI_OK;
     }

@@ -13,7 +13,7 @@
 static bool is_untrusted; // set before there is a second thread
 
 static void say(const char *text, size_t count) {
-    // Whether it can be written or not, the exit status tells.
+    // The exit status tells it even if this cannot be written.
     (void)output_descriptor(STDERR_FILENO, text, count);
 }
 
@@ -31,7 +31,7 @@ static void end(size_t size_bytes) {
                       limit[] = ", refused: more than --untrusted allows, or than there is",
                       before[] = ": the system refused ", after[] = " bytes";
     static atomic_flag ending = ATOMIC_FLAG_INIT;
-    while (atomic_flag_test_and_set(&ending)) // another thread came first, and ends this one too
+    while (atomic_flag_test_and_set(&ending)) // another thread was first, and ends this one too
         pause();
     temporary_remove_all();
     if (isatty(STDERR_FILENO))

@@ -26,7 +26,7 @@ static const struct option_word maps[] = {{"difference", false}, {"flip", true},
 
 #define FIELD(field)                                                                                         \
     .offset = offsetof(struct cli_options, field), .size = sizeof((struct cli_options *)0)->field
-// One of another type than its kind writes does not compile.
+// A field whose type is not the one that its kind writes does not compile.
 #define TYPED(field, type)                                                                                   \
     .offset = offsetof(struct cli_options, field),                                                           \
     .size = sizeof *(true ? &((struct cli_options *)0)->field : (type *)0)

@@ -1,4 +1,4 @@
-// The table's walkers: the parser, --help, "did you mean", what goes together.
+// Walks the table: the parser, --help, "did you mean", which options go together.
 #include "cli/cli.h"
 
 #include "core/nearest.h"
@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 enum {
-    LETTER_END = 256,           // getopt's number of a row is after those of letters
+    LETTER_END = 256,           // getopt's numbers of rows begin after those of letters
     LETTERS_BYTES = 4 * 26 + 2, // of all letters, each with a sign
 };
 
@@ -160,12 +160,12 @@ static bool apply(struct cli *cli, int arg, const struct option_row *row, const 
 
 // ---- the command line
 
-// A flag says the same again.
+// A repeated flag changes nothing.
 static bool takes_many(const struct option_row *row) {
     return !row->argument || str_ends_with_nocase(str_from(row->argument), " ...");
 }
 
-// An option that takes one value would lose the first one.
+// A repeated option that takes one value would lose the first value.
 static bool is_repeated(struct cli *cli, int arg, const struct option_row *row) {
     int *first = &cli->option_places[row - option_rows];
     if (*first == 0 || takes_many(row)) {
@@ -237,7 +237,7 @@ static void suggest(struct cli *cli, const struct cli_command *command, const ch
 // The word that getopt read last.
 static const char *word_of_option(int argc, char **argv, bool unknown) {
     const char *word = argv[optind - 1] == optarg && optind >= 2 ? argv[optind - 2] : argv[optind - 1];
-    // inside a word of several letters, optind stays on it
+    // inside a word of several letters, optind stays at the word
     return unknown && word[0] != '-' && optind < argc ? argv[optind] : word;
 }
 
@@ -283,7 +283,7 @@ static int argument_of(const struct cli *cli, int first, int at, const char *wor
 bool cli_parse_options(struct cli *cli, const struct cli_command *command, int first) {
     struct getopt_words words = {0};
     take_words(cli, command, &words);
-    // getopt sorts operands after options: it works on a copy, so that places stay those of the user.
+    // getopt sorts operands after options, so it works on a copy and places stay those of the user.
     int argc = cli->argc - first + 1;
     char **argv = ARENA_ARRAY(&cli->arena, char *, (size_t)argc + 1);
     for (int i = 0; i < argc; i++)
@@ -304,7 +304,7 @@ bool cli_parse_options(struct cli *cli, const struct cli_command *command, int f
         const struct option_row *row = is_wrong ? NULL : row_of(command, id);
         if (row)
             good = !is_repeated(cli, arg, row) && apply(cli, arg, row, optarg) && good;
-        if (!is_wrong || word == faulty) // another of its letters
+        if (!is_wrong || word == faulty) // another letter of the same word
             continue;
         faulty = word;
         good = false;

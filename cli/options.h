@@ -1,6 +1,6 @@
-// The options of all commands: the values they have, and the one table that says which there are. A row is an
-// option: its name, kind, field, range, the commands that take it, one sentence. The parser, --help, man
-// pages, completions and "did you mean" walk it.
+// The options of all commands: their values, and the one table that lists them. A row is an option: its name,
+// kind, field, range, the commands that take it, one sentence. The parser, --help, man pages, completions and
+// "did you mean" walk it.
 //
 // Errors: false, with the mistake in cli->sink. Ownership: texts are those of argv. Thread safety: as cli.h.
 #ifndef GLINT_CLI_OPTIONS_H
@@ -19,8 +19,8 @@ struct cli_command;
 #define CLI_UNTRUSTED_SECONDS   600
 #define CLI_UNTRUSTED_MEGABYTES 4096
 
-// ---- the values. Numbers are 0 and texts NULL where an option is not given, unless a comment says
-// otherwise; where it was given, cli_option_place knows.
+// ---- the values. If an option is not given, numbers are 0 and texts NULL, unless a comment says otherwise;
+// cli_option_place tells where it was given.
 
 enum cli_color {
     CLI_COLOR_AUTO,
@@ -44,7 +44,7 @@ enum cli_space {
 struct cli_output {
     const char *path; // "-": standard output
     enum image_format format;
-    bool is_part; // a file of parts (render/parts), of no such format
+    bool is_part; // a file of parts (render/parts), without such a format
     int arg;      // its place on the command line; 0: it was not given
 };
 
@@ -71,7 +71,7 @@ struct cli_batch_sweep {
 // Of many pictures from one process (cli/commands/batch).
 struct cli_batch {
     bool has_frames;
-    bool all_frames; // of the animation: batch_take_all says which, for one scene
+    bool all_frames; // of the animation: batch_take_all finds them, for one scene
     int32_t first_frame, last_frame, frame_step;
     double fps;
     struct {
@@ -83,7 +83,7 @@ struct cli_batch {
     bool skip_done;
 };
 
-// Of a part of a picture, or all of it in bands.
+// For a part of a picture, or all of it in bands.
 struct cli_part {
     uint32_t region[4];               // x, y, width, height; width 0: not given
     uint32_t tile, tiles;             // from 1
@@ -105,7 +105,7 @@ struct cli_test {
     bool blesses;
 };
 
-// Of compare and tradeoff, and those of render that choose settings by them.
+// For compare and tradeoff, and for render where it chooses settings by them.
 struct cli_measure {
     struct measure_bounds bounds;
     bool has_threshold;
@@ -121,7 +121,7 @@ struct cli_measure {
     double budget_s;
     bool allow_resolution;
     uint32_t scale_width,
-        scale_height; // to which a smaller picture that was chosen is scaled up; 0: it is not
+        scale_height; // size to scale a chosen smaller picture up to; 0: it is not scaled
     double time_s;    // from the program's start to the picture's file
     double noise;     // standard error at which pixels end
 };
@@ -180,7 +180,7 @@ enum option_kind {
     OPTION_NUMBER,  // double, from `least` to `most`
     OPTION_WORD,    // int or bool: the value of one of `words`
     OPTION_CHOICE,  // const char *: one of `words`
-    OPTION_SYNTAX,  // what `read` makes of it
+    OPTION_SYNTAX,  // parsed by `read`
 };
 
 struct option_word {
@@ -202,7 +202,7 @@ struct option_row {
     const struct option_word *words;
     bool (*read)(struct cli *cli, int arg, const struct option_row *row, const char *value);
     const char *needs, *excludes; // an option without which, or with which, this one has no effect
-    const char *why;              // words that say so; NULL: neither
+    const char *why;              // words that say so; NULL: there is no such option
 };
 
 extern const struct option_row option_rows[];
@@ -230,8 +230,7 @@ bool cli_read_fail_on(struct cli *cli, int arg, const struct option_row *row, co
 bool cli_bad_count(struct cli *cli, int arg, const char *name, const char *text, uint64_t least,
                    uint64_t most);
 
-// The rows of a command (NULL: of the program), in the order of --help: the one after `row`, from NULL to
-// NULL.
+// The row after `row` of a command (NULL: of the program), in the order of --help; begins and ends with NULL.
 const struct option_row *cli_next_option(const struct cli_command *command, const struct option_row *row);
 // Whether its value may be left out: "[=X]".
 bool cli_option_is_optional(const struct option_row *row);
@@ -240,7 +239,7 @@ void cli_option_help(struct strbuf *out, const struct cli_command *command);
 
 // Reads argv into cli->options and cli->operands. `command` NULL: the program's own options only.
 bool cli_parse_options(struct cli *cli, const struct cli_command *command, int first);
-// Whether what is given goes together, as far as rows say it.
+// Whether the given options go together, as far as rows say.
 bool cli_judge_options(struct cli *cli);
 // Reads the settings that --config names, and lays the other options over them. false: a mistake in the file
 // went to cli->sink.
@@ -253,14 +252,13 @@ bool cli_format(struct cli *cli, const char *const *kinds, int *kind);
 bool cli_has_option(const struct cli_command *command, const char *name);
 // The argument that gave an option last; 0: it was not given.
 int cli_option_place(const struct cli *cli, const char *name);
-// For an option that goes together with another one, or does not: true, with a mistake in cli->sink, if it
-// was given all the same.
+// For an option that has no effect because of others: true, with a mistake in cli->sink, if it was given.
 bool cli_has_no_effect(struct cli *cli, const char *name, const char *why);
 
 struct cli_no_effect {
     const char *option, *why; // why NULL: that of the row before
 };
-// The same of several, which a row without a name ends.
+// The same for several; a row without a name ends the list.
 bool cli_have_no_effect(struct cli *cli, const struct cli_no_effect *rows);
 
 #endif

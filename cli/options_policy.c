@@ -1,6 +1,6 @@
 // The options that say what a check reports and when it fails: --severity, --ignore, --only, --fail-on; and
-// --config, the settings of whoever runs glint, which go before those beside the scenes and after the other
-// options.
+// --config, the settings of whoever runs glint, which override those beside the scenes and are overridden by
+// the other options.
 #include "cli/cli.h"
 
 #include "core/nearest.h"

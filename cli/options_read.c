@@ -187,7 +187,7 @@ static bool take_integer(str text, int32_t *out) {
     return number_parse_whole(text, 0, FRAME_MOST, out);
 }
 
-// What is before `word`, and what is after it; all of it and nothing where it is not there.
+// Splits a text before and after `word`; without `word`, `before` is all of it and `after` empty.
 static bool split(str text, const char *word, str *before, str *after) {
     const size_t n = strlen(word);
     for (size_t i = 0; i + n <= text.len; i++)
@@ -225,7 +225,7 @@ bool cli_read_frames(struct cli *cli, int arg, const struct option_row *row, con
     return false;
 }
 
-// As --set would give it.
+// Stored as --set would give it.
 bool cli_read_frame(struct cli *cli, int arg, const struct option_row *row, const char *text) {
     (void)row;
     int32_t frame;
@@ -262,7 +262,7 @@ static bool take_steps(struct cli *cli, struct cli_batch_sweep *sweep, str text)
     return true;
 }
 
-// V,V,...: commas in brackets are of a value.
+// V,V,...: commas in brackets belong to a value.
 static void take_list(struct cli *cli, struct cli_batch_sweep *sweep, str text) {
     size_t begin = 0;
     int depth = 0;

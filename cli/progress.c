@@ -67,10 +67,10 @@ static bool report(void *context, double fraction) {
     };
     struct progress *p = context;
     double now = clock_seconds();
-    double done = fmin(p->base + p->share * fraction, 0.99); // nothing is done before its end
+    double done = fmin(p->base + p->share * fraction, 0.99); // never 1 before the end
     // The first half second shows nothing: most pictures are done by then.
     if (!p->quiet && now - p->start > 0.5 && now - p->last > (p->terminal ? 0.1 : LINE_SECONDS)) {
-        // Before anything is done nobody knows how long it takes.
+        // Before anything is done, the time left is unknown.
         double left = done > 0 ? (now - p->start) * (1 - done) / done : INFINITY;
         if (p->terminal)
             bar(done, left, p->what);

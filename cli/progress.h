@@ -1,4 +1,4 @@
-// A progress bar with the time left on a terminal, plain lines elsewhere, and the end by Ctrl-C.
+// A progress bar with the time left on a terminal, plain lines elsewhere, and handling of Ctrl-C.
 #ifndef GLINT_CLI_PROGRESS_H
 #define GLINT_CLI_PROGRESS_H
 
@@ -9,16 +9,16 @@ struct progress {
     double start, last; // seconds
     double base, share; // this frame's part of the whole: base + share * fraction
     bool shown;
-    const char *what; // is under way; NULL: nothing to tell apart
+    const char *what; // what is under way; NULL: there is only one kind of work
     double patience;  // seconds that a frame under way may go on after a signal; 0: it ends at once
-    double end;       // clock: when they are over; 0: no signal came
+    double end;       // clock: end of that time; 0: no signal came
 };
 
-// After a signal a frame under way is waited for, but not for ever: Slurm kills 30 s after it has asked.
+// After a signal a frame under way may finish, within this time: Slurm kills 30 s after its signal.
 #define PROGRESS_PATIENCE 10.0
 
 void progress_begin(struct progress *progress, bool quiet);
-// The callback of renderer_render; false after a signal, and the patience for it.
+// The callback of renderer_render; false after a signal, once the patience is over.
 struct render_progress progress_callback(struct progress *progress);
 // Erases the bar.
 void progress_end(struct progress *progress);

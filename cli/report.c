@@ -151,12 +151,12 @@ int cli_try_scene(struct cli *cli, const char *path) {
 int cli_interrupted(struct cli *cli) {
     const int signal_number = interrupt_signal();
     cli_error(cli, DIAG_INTERRUPTED, cli->operands[0], NULL, "interrupted; nothing was written");
-    if (cli->options.part.resume) // what is there already stays, and the same command goes on
+    if (cli->options.part.resume) // finished work stays, and the same command goes on
         return CLI_STOPPED;
     return signal_number == SIGTERM ? CLI_TERMINATED : CLI_INTERRUPTED;
 }
 
-// --time and the searches say themselves how many samples there are: then all pixels have as many.
+// --time and the searches set the number of samples themselves: then all pixels have the same number.
 static double error_of(const struct cli_options *options) {
     const struct cli_measure *m = &options->measure;
     return m->time_s > 0 || m->max_error || m->max_time_ms > 0 ? -1 : m->noise;

@@ -49,7 +49,8 @@ static int refuse_options(struct cli *cli) {
 
 int cli_take_stream(struct cli *cli, const struct cli_command *command) {
     bool takes = cli_has_option(command, "base");
-    // Where there may be any number they are all scenes; else what follows is OUT of convert, or a pixel.
+    // Where any number is allowed, all operands are scenes; else those that follow are OUT of convert, or a
+    // pixel.
     bool all = command->most_operands < 0 || strcmp(command->name, "diff") == 0;
     int count = 0, last = 0;
     for (int i = 0; i < cli->operand_count && (i == 0 || all); i++)

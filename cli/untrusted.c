@@ -1,4 +1,4 @@
-// --untrusted: what a command may still do with files that come from anyone.
+// --untrusted: what a command may still do with files from unknown sources.
 #include "cli/untrusted.h"
 
 #include "cli/device.h"
@@ -27,7 +27,7 @@ static void allow(struct allowed *a, str path, bool writes) {
             (struct sandbox_path){arena_copy(&a->cli->arena, path).ptr, writes};
 }
 
-// What is given as an option; NULL: it was not.
+// Allows a path that an option gave; NULL: it was not given.
 static void allow_given(struct allowed *a, const char *path) {
     allow(a, str_from(path ? path : ""), false);
 }
@@ -51,7 +51,8 @@ void cli_add_root(struct files *files, str folder) {
 
 // ---- what a command needs
 
-// A scene, or a picture with the scene below its folder: what it may read, and itself, which may be a link.
+// A scene, or a picture with the scene below its folder: allows what it may read, and itself, which may be a
+// link.
 static void allow_file(struct allowed *a, const char *path) {
     files_add_scene_root(&a->files, str_from(path));
     allow_given(a, path);
@@ -101,7 +102,7 @@ static bool writes_roots(const struct cli_options *o, const struct cli_command *
            (strcmp(command->name, "format") == 0 && !o->check && !o->diff && !o->output);
 }
 
-// docs/ci.md lists them. What is not there is left out.
+// docs/ci.md lists these paths. Missing ones are left out.
 static void allow_driver(struct allowed *a) {
     static const char *const read[] = {"/usr/share/vulkan",
                                        "/usr/local/share/vulkan",
@@ -165,7 +166,7 @@ int cli_enter_untrusted(struct cli *cli, const struct cli_command *command, cons
     if (draws)
         allow_driver(&a);
 #ifdef __SANITIZE_ADDRESS__
-    allow(&a, STR("/proc"), false); // the search for leaks reads the process's threads there
+    allow(&a, STR("/proc"), false); // the leak check reads the process's threads there
 #endif
     const struct sandbox sandbox = {a.paths.items, a.paths.count, o->untrusted_seconds,
                                     (uint64_t)o->untrusted_megabytes << 20};

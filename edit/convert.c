@@ -35,7 +35,7 @@ static void read_again(void *context) {
     r->found = parser_load_file(&r->input, source, &r->output);
 }
 
-// The first line of the canonical dumps that differs, for the bug report that this is.
+// The first line where the canonical dumps differ, for a bug report.
 static str first_difference(str wanted, str got) {
     size_t line = 0, at = 0;
     for (; at < wanted.len && at < got.len && wanted.ptr[at] == got.ptr[at]; at++)

@@ -25,7 +25,7 @@ enum convert_status {
 bool convert_spelling_of(str path, enum convert_spelling *spelling);
 enum convert_status convert_write(struct session *session, enum convert_spelling spelling,
                                   struct strbuf *out);
-// The second half of it: whether `text`, in that spelling, reads as the session's scene.
+// The second half of it: whether `text`, in that spelling, reads back as the session's scene.
 enum convert_status convert_check(struct session *session, enum convert_spelling spelling, str text);
 
 #endif

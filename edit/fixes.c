@@ -24,7 +24,7 @@ struct fixer {
     struct {
         struct tried *items;
         uint32_t count, capacity;
-    } tried; // what the last round changed, in the new texts
+    } tried; // places that the last round changed, in the new texts
 };
 
 struct tried {
@@ -71,7 +71,7 @@ static str shown_path(struct session *session, str path) {
     return path_is_below(path, files_canonical(&session->files, STR(".")), &rest) ? rest : path;
 }
 
-// Files that are created. Returns how many of them no round has created before.
+// Creates files. Returns how many no earlier round has created.
 static uint32_t create_files(struct fixer *f, struct session *session) {
     struct fixes *fixes = f->fixes;
     uint32_t created = 0;
@@ -95,8 +95,8 @@ static uint32_t create_files(struct fixer *f, struct session *session) {
 
 // ---- one round
 
-// The changes of the last round to one file, which are in the order of its text: those that begin before
-// `end`.
+// The number of changes of the last round to one file that begin before `end`; they are in the order of its
+// text.
 static uint32_t count_before(const struct fixer *f, uint32_t file, uint32_t end) {
     uint32_t low = 0, high = f->tried.count;
     while (low < high) {
@@ -109,7 +109,7 @@ static uint32_t count_before(const struct fixer *f, uint32_t file, uint32_t end)
     return low;
 }
 
-// A finding of the same kind at a place that was changed for it: the change did not help.
+// If a place that was changed for a finding has one of the same kind again, the change did not help.
 static void refuse_what_failed(struct fixer *f, struct session *session) {
     for (uint32_t i = 0; i < session->sink.count && f->tried.count; i++) {
         const struct diag *item = &session->sink.items[i];

@@ -1,9 +1,9 @@
 // Making the changes that diagnostics propose (struct diag: fix_at, fix_text), in the scene and the files it
 // includes.
 //
-// Rounds: check, make all changes that do not touch each other, check again, until none is left or none
-// helps. A file gets all of its changes or none: none if its text could not be read to its end afterwards, or
-// if a change did not remove its finding. Nothing is written here. Ownership: fixes_finish frees everything.
+// Rounds: check, make all changes that do not touch each other, check again, until no change is left or none
+// helps. A file gets all of its changes or none: none if its text could then not be read to the end, or if a
+// change did not remove its finding. Nothing is written here. Ownership: fixes_finish frees everything.
 // Errors: `failed` is set when memory runs out. Thread safety: one call belongs to one thread; so does the
 // store.
 #ifndef GLINT_EDIT_FIXES_H
@@ -24,7 +24,7 @@ struct fixed_file {
     str text; // equal to `before`: nothing must be written
     uint32_t changes;
     bool refused;
-    bool is_new; // there was none
+    bool is_new; // there was no such file
 };
 
 struct fixes {

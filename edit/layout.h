@@ -28,8 +28,8 @@ struct layout {
     enum layout_status status;
 };
 
-// `found_in`: as in struct session_options. The ending of `path` decides the spelling; for other endings the
-// text does. `text` must outlive the layout.
+// `found_in`: as in struct session_options. The ending of `path` decides the spelling or, for other endings,
+// the text. `text` must outlive the layout.
 enum layout_status layout_text(struct layout *layout, str path, str text, const struct limits *limits,
                                bool upgrade);
 enum layout_status layout_file(struct layout *layout, str path, str found_in, const struct limits *limits,

@@ -20,7 +20,7 @@ static void write_line(struct strbuf *out, bool is_xml, str address) {
                     "\" type=\"application/xml\" schematypens=\"http://relaxng.org/ns/structure/1.0\"?>");
 }
 
-// Where a first line belongs: after a byte order mark, and after XML's declaration with its line end.
+// The place of a first line: after a byte order mark, and after XML's declaration with its line end.
 static size_t first_place(str text, bool is_xml) {
     size_t at = str_skip_mark(text);
     if (!is_xml || text.len < at + 6 || memcmp(text.ptr + at, "<?xml", 5) != 0 || text.ptr[at + 5] == '-')

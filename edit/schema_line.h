@@ -8,9 +8,9 @@
 #include "core/strbuf.h"
 #include "load/session.h"
 
-// Puts the line with this address into the text of the session's main file, or changes the one that is there;
-// no other byte changes, and the line ends as the file's lines do. `session` is from session_load_text.
-// false: the text has that line already, and `out` is unchanged.
+// Puts the line with this address into the text of the session's main file, or changes the existing line; no
+// other byte changes, and the line end is the file's. `session` is from session_load_text. false: the text
+// has that line already, and `out` is unchanged.
 bool schema_line_put(struct session *session, str address, struct strbuf *out);
 
 #endif

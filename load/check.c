@@ -36,8 +36,8 @@ static void apply_policy(void *context) {
     diag_filter(&session->sink, keeps, &judge);
 }
 
-// Whether a file only holds things for others to use: nothing could be seen in its picture, neither a body
-// nor a background, but it defines materials, cameras or lights.
+// Whether a file only holds things for others to use: it has no body and no background, so its picture would
+// show nothing, but it defines materials, cameras or lights.
 bool check_is_library(const struct ir_scene *scene) {
     return ir_body_count(scene) == 0 && !scene->background.head.written &&
            scene->materials.count + scene->cameras.count + scene->lights.count > 0;
@@ -48,7 +48,7 @@ static bool is_not_about_view(void *context, struct diag *item) {
     return item->code != DIAG_DEFAULT_CAMERA && item->code != DIAG_DEFAULT_LIGHT;
 }
 
-// The notes about what replaces a camera or a light that is not written; a library waits for those of others.
+// Notes what replaces a missing camera or light. A library gets no notes: it uses those of other files.
 static void note_view(struct session *session) {
     struct view view;
     if (session->state != SESSION_LOADED || session->sink.errors)
@@ -119,7 +119,7 @@ static void fill_assets(void *context) {
         str path = arena_copy(&out->arena, report_path(&out->arena, filling->root, read->path));
         a->files[a->file_count++] = (struct report_file){path, read->size_bytes};
     }
-    // In which order meshes are read depends on how many processors there are.
+    // The order in which meshes are read depends on the number of processors.
     qsort(a->files, a->file_count, sizeof *a->files, compare_paths);
     out->has_assets = true;
 }

@@ -16,13 +16,13 @@ struct allow {
 struct gap {
     uint32_t source;
     size_t begin, end;  // where content begins
-    size_t content_end; // of the entry that it begins; of the root, of its tag
-    size_t root;        // where that of an XML text begins
+    size_t content_end; // end of the entry that begins there; for the root, end of its tag
+    size_t root;        // where the root of an XML text begins
 };
 
 struct allows {
     struct session *session;
-    bool report; // what is wrong with the comments
+    bool report; // also report what is wrong with the comments
     struct {
         struct allow *items;
         uint32_t count, capacity;
@@ -31,8 +31,9 @@ struct allows {
         uint32_t source, line;
         bool known, allowed;
     } answers[DIAG_CODE_COUNT]; // the last one for each code: a line may have thousands of findings
-    uint32_t *outer; // of each: how many come up to the last one before it that applies to its first line
-    struct gap last; // comments after each other have one content in common
+    uint32_t *outer; // for each: number (from 1) of the nearest earlier comment that reaches its first line;
+                     // 0: none
+    struct gap last; // consecutive comments share one content
 };
 
 static bool at_comment(str text, size_t at, bool is_xml) {
@@ -62,8 +63,8 @@ static size_t skip_to_content(str text, size_t at, bool is_xml) {
     return at;
 }
 
-// Where the XML tag that begins at `at` ends. No comment can be inside a tag, so that one before it, or after
-// it, applies to all of its lines.
+// Where the XML tag that begins at `at` ends. No comment can be inside a tag, so one before or after it
+// applies to all of its lines.
 static size_t tag_end(str text, size_t at) {
     char quote = '\0';
     for (; at < text.len; at++) {
@@ -131,8 +132,8 @@ static size_t line_end(str text, size_t at) {
     return at;
 }
 
-// Where the last line of the YAML entry ends that begins at `at`: an item of a list or a key, with what is
-// indented below it. Of a list of the root, where its key does.
+// The last content of the YAML entry that begins at `at`: a list item, or a key with what is indented below
+// it. For a key of the root with an unindented list: the key itself.
 static size_t entry_end(str text, size_t at) {
     size_t column = 0, end = at;
     while (column < at && !char_is_break(text.ptr[at - column - 1]))
@@ -151,7 +152,7 @@ static size_t entry_end(str text, size_t at) {
     return end;
 }
 
-// Whether the line has more than the dash of a list's item before `end`.
+// Whether the line has anything but a list item's dash before `end`.
 static bool has_content(str text, size_t end) {
     for (; end > 0 && !char_is_break(text.ptr[end - 1]); end--)
         if (!char_is_space(text.ptr[end - 1]) && text.ptr[end - 1] != '-')
@@ -175,9 +176,8 @@ static const struct gap *content_after(struct allows *allows, span comment, str 
     return gap;
 }
 
-// The lines that a comment applies to: its own if something is before it, else those of the entry that
-// follows, so that a comment goes on silencing the same where another spelling has the finding on a later
-// line of it.
+// The lines that a comment applies to: its own if something precedes it, else those of the entry that
+// follows. So it still silences a finding that moves to a later line when the entry is spelled differently.
 static void find_lines(struct allows *allows, span comment, struct allow *allow) {
     struct session *session = allows->session;
     const struct source *source = &session->sources.items[comment.source];
@@ -293,7 +293,7 @@ static void sort(struct allows *allows) {
     }
 }
 
-// How many comments come before those that apply to a later line of the text only.
+// The number of comments that begin to apply at this line or before it.
 static uint32_t count_up_to(const struct allows *allows, uint32_t source, uint32_t line) {
     uint32_t low = 0, high = allows->list.count;
     while (low < high) {
@@ -307,7 +307,7 @@ static uint32_t count_up_to(const struct allows *allows, uint32_t source, uint32
     return low;
 }
 
-// Marks the comments that allow the code on a line; false: there is none.
+// Marks the comments that allow the code on a line; false: no comment does.
 static bool allows_on(struct allows *allows, diag_code code, uint32_t source, uint32_t line) {
     bool found = false;
     for (uint32_t i = count_up_to(allows, source, line); i > 0; i = allows->outer[i - 1]) {
@@ -331,7 +331,8 @@ static bool allows_at(struct allows *allows, diag_code code, span at) {
     return answer->allowed;
 }
 
-// A finding is on the lines itself, or, in a mesh or image, the note is that says what names the file.
+// A comment covers the finding's own line or, for a finding in a mesh or image, the line of the note that
+// says what names the file.
 static bool keeps(void *context, struct diag *item) {
     struct allows *allows = context;
     if (diag_info(item->code)->severity == DIAG_ERROR)
@@ -343,15 +344,15 @@ static bool keeps(void *context, struct diag *item) {
     return !allowed;
 }
 
-// Whether a comment allows only one code: those of one comment are next to each other.
+// Whether a comment allows only one code. The codes of one comment are adjacent.
 static bool is_alone(const struct allows *allows, uint32_t i) {
     const struct allow *items = allows->list.items;
     bool before = i > 0 && span_equal(items[i - 1].comment, items[i].comment);
     return !before && !(i + 1 < allows->list.count && span_equal(items[i + 1].comment, items[i].comment));
 }
 
-// Comments of the scene itself: what an included file allows may only be found in another scene. If there are
-// errors, rules may not have run.
+// Only comments in the scene file itself: one in an included file may be for findings in another scene. If
+// there are errors, rules may not have run.
 static void report_unused(struct allows *allows) {
     struct session *session = allows->session;
     uint32_t main_source =

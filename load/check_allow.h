@@ -9,8 +9,8 @@
 // Removes what comments in the scene files allow; with `report`, comments that allow nothing are findings
 // themselves (W801, W802).
 void check_allow(struct session *session, bool report);
-// What other commands than check leave out of a loaded session's warnings and notes: what comments allow, and
-// what the configuration switches off.
+// For commands other than check: removes the warnings and notes of a loaded session that comments allow or
+// the configuration switches off.
 void check_silence(struct session *session);
 
 #endif

@@ -16,7 +16,7 @@ static bool holds(span outer, span at) {
     return outer.source == at.source && outer.begin <= at.begin && at.begin < outer.end;
 }
 
-// Keeps the path if its span is the tightest that contains the place.
+// Keeps the path if its span is the tightest so far that contains the place.
 static bool offer(struct search *s, span outer, str path) {
     if (!holds(outer, s->at))
         return false;
@@ -40,7 +40,7 @@ static void walk_list(struct search *s, const struct schema_row *row, const void
     for (uint32_t i = 0; i < list.count; i++) {
         const void *item = ir_walk_item(row, list, i);
         if (ir_walk_is_anonymous(row->child, item))
-            continue; // is written where it is used
+            continue; // written inline, where it is used
         const struct ir_head *head = ir_walk_head(item);
         uint32_t index = position++;
         if (head->origin >= s->session->origin.elements.count)

@@ -5,7 +5,7 @@
 
 #include "load/session.h"
 
-// The path in the scene of a place: "models[2].material", as --set accepts it. Empty: it has none.
+// The scene path of a place: "models[2].material", as --set accepts it. Empty: the place has none.
 str check_scene_path(const struct session *session, struct arena *arena, span at);
 
 #endif

@@ -39,7 +39,7 @@ static void add_scene_files(struct session *session, struct inventory *out) {
 }
 
 static enum inventory_role role_of(const struct asset_use *use) {
-    // What a material file names is an image, what a mesh names a material file.
+    // A material file names images; a mesh names material files.
     if (use->named_in.len)
         return assets_is_mesh_path(use->named_in) ? INVENTORY_MATERIALS : INVENTORY_IMAGE;
     return assets_is_mesh_path(use->path) ? INVENTORY_MESH : INVENTORY_IMAGE;

@@ -52,7 +52,7 @@ static enum session_state unreadable(struct session *session, str path, enum fil
     return SESSION_UNREADABLE;
 }
 
-// Its contents would only give mistakes of a language that it is not written in.
+// Reading it would only report mistakes in a language that it is not written in.
 static bool is_another_kind(struct session *session, str path, str text) {
     struct what_file what;
     if (!what_file(path, text, &session->arena, &what))
@@ -118,7 +118,7 @@ static void load_config(struct session *session) {
         diag_policy_overlay(&session->policy, &session->arena, session->options.policy);
 }
 
-// Nothing beside a scene that may not be read is looked at: no settings, no folder.
+// If the scene may not be read, nothing beside it is looked at: no settings, no folder.
 static enum file_status judge_place(struct session *session) {
     return session->options.names_scene
                ? files_confine(&session->files, session->options.path, session->options.named_in)
@@ -133,7 +133,7 @@ static enum file_status read_scene(struct session *session, str *text) {
         return o->found_in.len
                    ? files_read_found(&session->files, o->path, o->found_in, most, &session->arena, text)
                    : files_read_given(&session->files, o->path, most, &session->arena, text);
-    files_init(&alone, &session->arena); // its own root is not asked
+    files_init(&alone, &session->arena); // its own root does not count
     alone.overlays = session->files.overlays;
     const enum file_status status =
         files_read_found(&alone, o->path, o->named_in, most, &session->arena, text);
@@ -217,7 +217,7 @@ static void load_assets(struct session *session, struct asset_store *store) {
     session->assets_seconds = clock_seconds() - start;
 }
 
-// What needs the pixels, too.
+// The steps that need the background's pixels.
 static void finish_load(void *context) {
     struct session *session = context;
     const double start = clock_seconds();
@@ -243,8 +243,8 @@ void session_report_pixels(struct session *session) {
                                : "choose a smaller size; 'glint render' writes large pictures in bands");
 }
 
-// Pictures are rendered in bands unless all pixels are needed at once: by who loads the scene, or by pixels
-// that end by their error, which is stated of all of them.
+// Pictures are rendered in bands unless all pixels are needed at once: by the caller, or because pixels end
+// by their error, which is stated for the whole picture.
 static void check_pixels(struct session *session) {
     const struct ir_image *scene = &session->scene->image, *image = session->image;
     const int64_t pixels = (int64_t)image->width * image->height;
@@ -278,9 +278,9 @@ static void take_image_options(struct session *session) {
 enum extent {
     EXTENT_SCENE,
     EXTENT_FILE,     // without includes and assets
-    EXTENT_KEPT,     // what does not depend on the sets
+    EXTENT_KEPT,     // only what does not depend on --set
     EXTENT_SETTINGS, // it is a configuration
-    EXTENT_NAME,     // only that its name is not that of a scene
+    EXTENT_NAME,     // only reports that its name is not a scene's
 };
 
 static void report_name(struct session *session, uint32_t source) {
@@ -314,7 +314,7 @@ static struct parser_input parser_input(struct session *session) {
                                  .timeline = session->options.timeline};
 }
 
-// What the parser has made, and all that it names.
+// Takes over the parser's result, and loads all that it names.
 static enum session_state take_scene(struct session *session, struct asset_store *store,
                                      const struct parser_output *output, bool alone) {
     session->scene = output->scene;
@@ -362,7 +362,7 @@ static enum session_state load_stages(struct session *session, struct asset_stor
     return found ? take_scene(session, store, &output, alone) : SESSION_NO_SCENE;
 }
 
-// The same of what is kept.
+// The same, from kept text.
 static enum session_state load_kept(struct session *session, struct asset_store *store) {
     const struct session *text = &session->options.kept->text;
     const double start = clock_seconds();

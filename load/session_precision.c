@@ -81,7 +81,7 @@ void precision_words(const struct session *session, const struct precision_choic
         strbuf_cstr(out, "  there are too many bodies close together to look for gaps between all of them\n");
 }
 
-// What decides, as a note to the warning before.
+// What decides the precision, as a note to the preceding warning.
 static void note_measure(struct session *session, const struct precision_choice *choice) {
     const struct precision_report *report = &choice->report;
     struct strbuf words;
@@ -112,14 +112,14 @@ static void report_no_memory(struct session *session) {
              "there is not enough memory to measure the scene");
 }
 
-// Those that a pixel has at least.
+// The least number of samples that a pixel gets.
 static uint32_t samples_of(const struct session *session) {
     const struct ir_image *image = session->image;
     const bool fewer = image->error > 0 && image->min_samples < image->samples;
     return (uint32_t)(fewer ? image->min_samples : image->samples);
 }
 
-// Without a device.
+// A trial without a device.
 static bool forecast(const struct session *session, const struct flat_input *input,
                      struct precision_choice *out) {
     const struct precision_trial trial = {.input = input,

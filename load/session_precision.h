@@ -1,4 +1,5 @@
-// The precision that a shot is traced in: the scene's setting, what its numbers need, what the device has.
+// The precision that a shot is traced in: from the scene's setting, what its numbers need, and what the
+// device has.
 //
 // Ownership: nothing is kept. Thread safety: as the session.
 #ifndef GLINT_LOAD_SESSION_PRECISION_H
@@ -19,9 +20,9 @@ struct precision_wish {
     struct precision_choice *choice; // takes what a trial found; NULL: not asked
 };
 
-// Sets input->is_double: the scene's setting, or, if that is auto, what a trial on the device finds, which
-// leaves *gains (may be NULL; else zeroed where nothing is left). `has_double`: the device can. The session's
-// sink gets the error E707, or the warning W701, or that there is no memory.
+// Sets input->is_double: the scene's setting or, for auto, the result of a trial on the device. The trial
+// fills *gains (may be NULL; zeroed if it leaves nothing). `has_double`: the device supports double. The
+// session's sink gets the error E707, the warning W701, or that there is no memory.
 enum precision_status precision_choose(struct session *session, struct flat_input *input, struct gpu *gpu,
                                        bool has_double, struct precision_wish wish,
                                        struct precision_gains *gains);

@@ -9,7 +9,7 @@ struct rebase {
     struct session *session;
     str out;
     struct files there; // what the scene may read from its new folder
-    uint32_t beyond;    // paths that are outside that
+    uint32_t beyond;    // number of paths outside that
     span first;
     str first_path;
 };

@@ -9,7 +9,7 @@
 #define PICTURE  "a picture can be the 'image' of a background; 'glint compare' compares pictures"
 #define LANGUAGE "glint reads scenes in its own language, YAML or XML: see docs/reference.md"
 
-// Magic numbers before endings, which can lie.
+// Magic numbers come before endings, which can lie.
 struct row {
     const char *ending; // NULL: no ending says it
     const char *magic;  // its first bytes; NULL: none says it
@@ -64,8 +64,8 @@ static bool says_glint(str text) {
     return false;
 }
 
-// By its first bytes, or, where there is no text, by its ending. A picture that glint knows is in the table
-// of their formats.
+// Recognised by its first bytes or, without text, by its ending. Pictures that glint knows are in the table
+// of picture formats.
 static bool is_picture(str path, str text, struct what_file *out) {
     for (int i = 0; i < IMAGE_FORMATS; i++) {
         const struct image_format_info *info = image_format_info((enum image_format)i);

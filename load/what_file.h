@@ -1,4 +1,4 @@
-// What a file is that is named as a scene and is none: by its first bytes, else by its ending.
+// Tells what a file is that was named as a scene but is not one: by its first bytes, else by its ending.
 //
 // Input: its path and its text. Output: what it is and what to do with it, in words that live as long as the
 // arena; false where it may be a scene. Thread safety: that of the arena.

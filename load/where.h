@@ -20,7 +20,7 @@ struct where {
     span material_at;          // in the scene; SPAN_NONE if it is not written there
     str mesh;                  // path; empty: no mesh
     uint32_t mesh_line;        // 0: no mesh
-    const char *mesh_word;     // what that counts: "line", or "face" in a binary file
+    const char *mesh_word;     // what mesh_line counts: "line", or "face" in a binary file
 };
 
 // `body` in IR order, `triangle` in file order. false: there is no such body.
@@ -30,12 +30,12 @@ void where_body_words(const struct where *where, struct strbuf *out);
 // "material 'jade'", "the default material".
 void where_material_words(const struct where *where, struct strbuf *out);
 
-// Why a feature is on that nothing written in the scene asks for: the media that may share a place, or a
-// mesh's materials. The words are added to `out`; returns the place that they are about, or SPAN_NONE.
+// Why a feature is on although nothing written in the scene asks for it: media that may share a place, or a
+// mesh's materials. Appends the words to `out`; returns the place that they are about, or SPAN_NONE.
 span where_feature_words(const struct session *session, uint64_t feature,
                          const struct scene_media_reason *reason, struct strbuf *out);
 
-// false: the camera is inside more media than a ray can be, which is an error in the sink.
+// false: the camera is inside more media than a ray can be; the sink has the error.
 bool where_camera_fits(struct session *session, uint32_t camera, const struct view *view);
 
 // What either tracer may report about pixels.
@@ -44,8 +44,8 @@ bool where_camera_fits(struct session *session, uint32_t camera, const struct vi
 #define WHERE_OVER_SEGMENTS "needed more rays than the limit path-segments"
 #define WHERE_CUT_SHORT     "needed more rays than the limit reference-segments"
 
-// Reports in the sink that pixels have a fault, with the body (HIT_NONE: none) that the first one's path hit
-// last: its material, and the lines of scene and mesh.
+// Reports pixels with a fault in the sink, with the body that the path of the first one hit last (HIT_NONE:
+// none): its material, and its lines in scene and mesh.
 struct where_fault {
     diag_code code;
     const char *words; // WHERE_NOT_FINITE, or others that follow "3 pixels"

@@ -120,7 +120,7 @@ json_t *server_code_actions(const struct request *request) {
 
 // ---- formatting
 
-// The text as a whole: what the layout does not change stays, so that the editor's own diff is small.
+// Replaces the whole text; what the layout does not change stays the same, so the editor's own diff is small.
 json_t *server_formatting(const struct request *request) {
     struct server *server = request->server;
     struct arena *arena = request->arena;

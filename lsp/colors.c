@@ -1,7 +1,7 @@
 // Colours in the text, with a swatch in the editor, and as the user picks them there.
 //
-// Numbers are linear light: they are shown as image.transfer shows them, and what is picked is written so
-// that it looks like that. What is written as #rrggbb stays so.
+// Numbers are linear light. They are shown as image.transfer shows them, and a picked colour is written as
+// the numbers that look like it. A colour written as #rrggbb stays in that form.
 #include "lsp/server_private.h"
 
 #include "core/srgb.h"
@@ -76,7 +76,7 @@ static void add_presentation(const struct request *request, json_t *list, str te
     json_array_append_new(list, item);
 }
 
-// Four decimals tell 256 steps of light apart.
+// Four decimals can tell 256 steps of light apart.
 static str numbers(struct arena *arena, const json_t *color, bool decode, bool is_xml) {
     double rgb[3];
     static const char *const names[] = {"red", "green", "blue"};
@@ -120,7 +120,7 @@ static void add_value_texts(const struct request *request, json_t *list, str old
         add_presentation(request, list, quoted, hex);
 }
 
-// In the form that is in the text first: an element of XML, #rrggbb, or a list of numbers.
+// The form that the text has comes first: an element of XML, #rrggbb, or a list of numbers.
 json_t *server_color_texts(const struct request *request) {
     struct arena *arena = request->arena;
     enum position_encoding encoding = request->server->encoding;

@@ -50,7 +50,7 @@ struct completing {
     struct typed typed;
     json_t *range;  // of the word
     json_t *known;  // labels that were offered
-    bool has_value; // what is typed is a key whose value is there
+    bool has_value; // a key is typed whose value is there already
     json_t *items;
 };
 
@@ -62,7 +62,7 @@ enum completion_kind { // LSP 3.17, "Completion Request"
     COMPLETION_ENUM_MEMBER = 20,
 };
 
-// The text that takes the place of the word; NULL: it was offered before.
+// Offers a text to replace the word; NULL: it was offered before.
 static json_t *offer_text(struct completing *c, str label, enum completion_kind kind, const char *doc,
                           str text) {
     json_t *name = position_string(label);
@@ -105,7 +105,7 @@ static void offer_names(struct completing *c, const struct schema_element *targe
     }
 }
 
-// Files and folders where the path typed so far leads, from the document's folder.
+// Offers files and folders at the path typed so far, relative to the document's folder.
 static void offer_files(struct completing *c, enum schema_file kind) {
     struct arena *arena = c->request->arena;
     str typed = c->typed.word;
@@ -177,7 +177,7 @@ static str sample_of(struct completing *c, const struct context *context, uint32
     return text;
 }
 
-// What follows the name, with the place of the cursor; nothing where it is written already.
+// What follows the name, with the place of the cursor; nothing if it is written already.
 static str value_of(struct completing *c, const struct context *context, uint32_t row, bool single) {
     struct arena *arena = c->request->arena;
     const struct schema_row *r = &context->schema->rows[row];

@@ -42,7 +42,7 @@ static size_t content_begin(str text, size_t begin, size_t most, int *dash) {
     return at;
 }
 
-// The word that ends before the ':' that is the last but spaces before `end`; empty: there is none.
+// The word before a ':' that only spaces separate from `end`; empty: there is none.
 static str key_before(str text, size_t begin, size_t end) {
     while (end > begin && strchr(" \t", text.ptr[end - 1]))
         end--;
@@ -75,12 +75,12 @@ static str line_key(str text, size_t from) {
     return end < text.len && text.ptr[end] == ':' ? str_slice(text, from, end) : STR("");
 }
 
-// The keys above a place in block style, by columns.
+// Collects the keys above a place in block style, by columns.
 static void climb(str text, size_t at, struct path *path) {
     size_t begin = line_begin(text, at);
     int dash;
     int column = (int)(content_begin(text, begin, at, &dash) - begin);
-    int limit = dash >= 0 ? dash : column; // what belongs above is left of it; a key may be right above a '-'
+    int limit = dash >= 0 ? dash : column; // a parent key is left of it; it may be directly above a '-'
     bool in_list = dash >= 0;
     if (in_list)
         push(path, STR(""));

@@ -1,5 +1,5 @@
-// Which element's attributes belong at a place of a text that is being typed, and so is seldom right: by
-// indentation and brackets in YAML, by open tags in XML.
+// Which element's attributes belong at a place of a text that is being typed, and so is seldom valid. Judged
+// by indentation and brackets in YAML, by open tags in XML.
 //
 // Output: a row of the table's elements, nothing that is allocated. Thread safety: pure functions.
 #ifndef GLINT_LSP_CONTEXT_H
@@ -14,7 +14,7 @@ struct context {
     bool in_children; // XML: where a child element begins, else in a tag
 };
 
-// `offset`: where the word begins that is typed.
+// `offset`: where the typed word begins.
 struct context context_at(str path, str text, size_t offset);
 
 #endif

@@ -52,7 +52,7 @@ struct path_search {
     str path;
 };
 
-// The path as the sessions know it.
+// Finds the path as the sessions know it.
 static void find_path(void *context) {
     struct path_search *search = context;
     struct files files;
@@ -101,7 +101,7 @@ void documents_close(struct documents *documents, const char *uri) {
     *document = documents->items[--documents->count];
 }
 
-// In place: to replace a word everywhere, editors send thousands of changes at once.
+// Works in place: editors send thousands of changes at once to replace a word everywhere.
 static bool splice(struct document *document, size_t begin, size_t end, const char *text, size_t length) {
     size_t tail = document->length - end;
     size_t whole = begin + length + tail;
@@ -138,7 +138,7 @@ bool document_change(struct document *document, enum position_encoding encoding,
             end = position_read(now, encoding, json_object_get(range, "end"), &hint);
             begin = position_read(now, encoding, json_object_get(range, "start"), &hint);
         }
-        // What is inserted after a single "\r" may be the other half of its line end.
+        // Text inserted after a single "\r" may complete its line end.
         bool joins = begin == hint.begin && begin > 0 && document->text[begin - 1] == '\r';
         if (begin < hint.begin || joins)
             hint = (struct position_hint){0};

@@ -1,4 +1,4 @@
-// The text that the editor has open: it replaces the files of the same names.
+// The texts that the editor has open: they replace the files of the same names.
 //
 // Ownership: the list owns text and names. Thread safety: one thread.
 #ifndef GLINT_LSP_DOCUMENT_H
@@ -20,7 +20,7 @@ struct document {
 };
 
 struct documents {
-    struct arena arena; // for paths; those of closed documents stay until the end
+    struct arena arena; // for paths; paths of closed documents stay until the end
     struct document *items;
     uint32_t count, capacity;
 };

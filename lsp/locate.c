@@ -108,7 +108,7 @@ static void note_users(void *context, const struct schema_element *schema, const
     }
 }
 
-// Where the name of an element is: in a map of YAML it is the key, elsewhere the key row's value.
+// Where an element's name is written: in a map of YAML as the key, elsewhere as the key row's value.
 static span name_place(const struct session *session, const struct schema_element *schema,
                        const void *element) {
     int key = schema_key_row(schema);

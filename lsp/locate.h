@@ -30,12 +30,12 @@ struct located_name {
         uint32_t count, capacity;
     } uses;
 };
-// The name at a located place: the definition's own, or the one a reference has. Uses are in `arena`, which
-// must be guarded. false: no name is there, or nothing has it.
+// The name at a located place, in a definition or a reference. Uses are in `arena`, which must be guarded.
+// false: there is no name, or nothing has it.
 bool locate_name(struct session *session, const struct located *at, struct arena *arena,
                  struct located_name *out);
 
-// Calls `visit` for every element of the scene: included ones and materials written in place too.
+// Calls `visit` for every element of the scene: also included ones, and materials written in place.
 typedef void locate_visit(void *context, const struct schema_element *schema, const void *element);
 void locate_walk(const struct schema_element *schema, const void *element, locate_visit *visit,
                  void *context);

@@ -14,7 +14,7 @@ void markdown_code(str code, const char *language, struct strbuf *out) {
     strbuf_char(out, '\n');
 }
 
-// What Markdown would read as something else.
+// Escapes what Markdown would read as something else.
 static void plain(str text, struct strbuf *out) {
     for (size_t i = 0; i < text.len; i++) {
         if (strchr("\\`*_<>[]#|", text.ptr[i]))
@@ -38,7 +38,7 @@ static size_t indent_of(str line) {
     return indent;
 }
 
-// Titles are what further indented lines follow; "YAML  ..." and "XML   ..." are code.
+// A line is a title if more indented lines follow; "YAML ..." and "XML ..." are code.
 void markdown_explanation(str text, struct strbuf *out) {
     static const struct {
         const char *word, *language;

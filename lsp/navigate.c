@@ -123,8 +123,8 @@ static bool is_of_xml(const struct session *session, uint32_t source) {
 static void add_edit(const struct request *request, json_t *changes, span at, str name, const char *text) {
     const struct session *session = request->session;
     span inner = bare(session, at);
-    // In quotes a name may be written with escapes, and in an attribute with entities; a name never needs
-    // any. A name that is not written at its place at all comes through an anchor.
+    // A name in quotes may have escapes, and in an attribute entities, but never needs them. A name that is
+    // not written at its place comes through an anchor.
     bool whole = inner.begin != at.begin || is_of_xml(session, at.source);
     if (!whole && !str_equal(source_text(&session->sources, inner), name))
         return;
@@ -268,7 +268,7 @@ static str symbol_name(struct arena *arena, const struct schema_element *schema,
     str key = ir_walk_key(schema, element);
     if (key.len)
         return key;
-    // What distinguishes entries of a list: the file they name, else their place in the list.
+    // List entries are told apart by the file that they name, else by their place in the list.
     for (uint32_t i = 0; i < schema->row_count; i++) {
         const struct schema_row *row = &schema->rows[i];
         const str *text = schema_field_const(row, element);

@@ -10,7 +10,7 @@ enum {
     MARK_BYTES = 512, // from one mark to the next, at least
 };
 
-// Units that the character at `at` takes in a line.
+// The units of the encoding that the character at `at` takes.
 static uint32_t units(str text, size_t at, enum position_encoding encoding, size_t *length) {
     *length = utf8_sequence_length(text, at);
     if (*length == 0)

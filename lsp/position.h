@@ -1,8 +1,8 @@
-// Between byte offsets and the protocol's positions (line and character from 0), in the encoding that client
-// and server agreed on; and between paths and file: URIs.
+// Converts between byte offsets and the protocol's positions (line and character from 0), in the encoding
+// that client and server agreed on, and between paths and file: URIs.
 //
-// Lines end as the protocol says: "\n", "\r\n" or "\r". A position after the end of its line means the line's
-// end (LSP 3.17, "Position"); one inside a character means its beginning. Thread safety: pure, except for the
+// Lines end as the protocol says: "\n", "\r\n" or "\r". A position past the end of its line means the line's
+// end (LSP 3.17, "Position"); one inside a character, its beginning. Thread safety: pure, except for the
 // index, which belongs to one thread.
 #ifndef GLINT_LSP_POSITION_H
 #define GLINT_LSP_POSITION_H
@@ -18,7 +18,7 @@ enum position_encoding {
     POSITION_UTF32,
 };
 
-// Marks in a text from which positions are counted: without them every position costs a walk from the
+// Marks in a text from which positions are counted. Without them every position needs a walk from the
 // beginning.
 struct position_mark {
     size_t offset;
@@ -31,21 +31,21 @@ struct position_index {
     uint32_t count, capacity;
 };
 
-// Zeroed memory is an index of no text. Makes it one of `text`; does nothing if it is already. When memory
-// runs out, positions are right but slow.
+// Zeroed memory is an index of no text. Makes it an index of `text`; does nothing if it is one already. If
+// memory runs out, positions are right but slow.
 void position_index_use(struct position_index *index, str text, enum position_encoding encoding);
 // Must be called before the text is freed.
 void position_index_forget(struct position_index *index);
 void position_index_finish(struct position_index *index);
 
-// The beginning of a line that was found in the text; valid as long as no byte before it changes. Zeroed: of
-// the first line.
+// The beginning of a line found in the text; valid as long as no byte before it changes. Zeroed: the first
+// line.
 struct position_hint {
     size_t begin;
     uint32_t line;
 };
-// The byte offset of a protocol's position object; the text's length if it is malformed. With a hint
-// (NULL: none), which it moves, a place near the last one is found at once.
+// The byte offset of a protocol's position object; the text's length if it is malformed. With a hint (NULL:
+// none), which is updated, a place near the last one is found at once.
 size_t position_read(str text, enum position_encoding encoding, const json_t *position,
                      struct position_hint *hint);
 // A protocol's range object for bytes [begin, end).

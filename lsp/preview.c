@@ -1,7 +1,7 @@
-// glint.preview: a picture of the text as it is open, for editors to show beside it.
+// glint.preview: a picture of the open text, for editors to show beside it.
 //
-// One is drawn at a time, beside the answers to everything else, and at most one waits, which the next one
-// takes the place of: of texts that change while one types, the newest is what is worth a picture.
+// One picture is drawn at a time, while everything else is answered. At most one more waits, and the next
+// request replaces it: while one types, only the newest text is worth a picture.
 #include "lsp/server_private.h"
 
 #include "core/heap.h"
@@ -27,9 +27,9 @@ struct asked {
 
 struct server_preview {
     struct preview *preview;
-    int wake[2];                 // a byte for each picture that is drawn; -1: none can be sent
-    struct asked drawn, waiting; // of `drawn`, id NULL: nobody waits for it any more
-    // What is drawn, and what that needs besides.
+    int wake[2];                 // pipe that gets a byte for each drawn picture; -1: none can be sent
+    struct asked drawn, waiting; // `drawn` with id NULL: nobody waits for it any more
+    // What is being drawn, and what drawing it needs.
     bool is_busy;
     struct parallel_task task;
     struct arena arena;
@@ -263,7 +263,7 @@ static void answer(struct server *server) {
 
 // ---- requests
 
-// A number of the command's argument, `standard` where it has none. false: it is not in the range.
+// Takes a number from the command's argument; `standard` if it has none. false: it is not in the range.
 static bool take_number(const json_t *argument, const char *key, int standard, int least, int most,
                         int *out) {
     const json_t *value = json_object_get(argument, key);
@@ -283,7 +283,7 @@ static bool take_seconds(const json_t *argument, double *out) {
     return !has || (*out >= PREVIEW_SECONDS_LEAST && *out <= PREVIEW_SECONDS_MOST);
 }
 
-// The scene's proportions.
+// Keeps the scene's proportions.
 static void choose_size(const struct ir_image *image, int longest, struct session_options *options) {
     const double larger = image->width > image->height ? image->width : image->height;
     options->width = (int32_t)fmax(floor(image->width * (longest / larger) + 0.5), 1);
@@ -297,7 +297,7 @@ struct preparing {
     double seconds;
 };
 
-// All that is drawn from, in memory that the editor's next changes leave alone.
+// Copies everything that drawing needs into memory that the editor's next changes do not touch.
 static void prepare(void *context) {
     struct preparing *c = context;
     struct server_preview *p = c->server->preview;
@@ -319,7 +319,7 @@ static void prepare(void *context) {
     p->version = c->request.document->version;
 }
 
-// The scene whose text cannot even be understood; NULL: the document is not a scene's.
+// The scene of a text that cannot be understood; NULL: the document is not a scene's.
 static struct session *broken_scene(struct server *server, const struct document *document) {
     for (uint32_t i = 0; i < server->scenes.count; i++) {
         struct lsp_scene *scene = server->scenes.items[i];
@@ -379,7 +379,7 @@ static void begin(struct server *server) {
     }
     p->is_busy = true;
     parallel_start(&p->task, draw, p);
-    // Nobody can wait beside it.
+    // Without a thread or a pipe it cannot be drawn in parallel.
     if (!p->task.has_thread || p->wake[0] < 0)
         parallel_wait(&p->task);
 }
@@ -403,7 +403,7 @@ void server_preview_cancel(struct server *server, const json_t *id) {
     }
 }
 
-// The picture is there, or will never be.
+// The picture is done, or has failed.
 static void finish(struct server *server) {
     struct server_preview *p = server->preview;
     end_drawing(p);

@@ -43,7 +43,7 @@ static str uri_of(struct session *session, struct arena *arena, uint32_t source)
 }
 
 // The URI under which the client has opened the file, if it has; valid until the next call. Findings come
-// file by file: the last URI is kept, since asking the system for a path costs more than all else here.
+// file by file, so the last URI is kept: asking the system for a path is the most expensive step here.
 static const char *client_uri(struct server *server, struct session *session, struct arena *arena,
                               uint32_t source) {
     if (server->uri.text && server->uri.session == session && server->uri.source == source)
@@ -121,7 +121,7 @@ static json_t *list_of(json_t *all, const char *uri) {
     return list;
 }
 
-// A file of two scenes has the findings of both, each once. `seen`: those that were added.
+// A file of two scenes gets the findings of both, each once. `seen`: those added so far.
 static void append_once(json_t *list, const char *uri, json_t *diagnostic, json_t *seen) {
     struct strbuf key;
     char *text = json_dumps(diagnostic, JSON_COMPACT);
@@ -194,7 +194,7 @@ static void collect_guarded(struct server *server, struct lsp_scene *scene, json
     arena_finish(&collecting.arena);
 }
 
-// Diagnostics of all scenes, to the client if they have changed (lsp/publish.c).
+// Sends the diagnostics of all scenes to the client if they have changed (lsp/publish.c).
 static void server_publish(struct server *server) {
     json_t *all = json_object();
     json_t *seen = json_object();
@@ -204,7 +204,7 @@ static void server_publish(struct server *server) {
     const char *uri;
     json_t *list;
     json_object_foreach(all, uri, list) {
-        // For open documents it is sent anyway: their new version waits for an answer.
+        // For open documents it is sent in any case: their new version waits for an answer.
         if (documents_find(&server->documents, uri) ||
             !json_equal(list, json_object_get(server->published, uri)))
             tell(server, uri, list);

@@ -32,7 +32,7 @@ static str unread(const struct rpc *rpc) {
     return str_slice(all, rpc->taken, all.len);
 }
 
-// Bytes that were read make room for new ones.
+// Removes bytes that were taken, to make room for new ones.
 static void compact(struct rpc *rpc) {
     if (rpc->taken == 0)
         return;
@@ -42,7 +42,7 @@ static void compact(struct rpc *rpc) {
     rpc->taken = 0;
 }
 
-// A client that ends closes what we write to.
+// When the client ends, it closes the stream that we write to.
 static void fail(struct rpc *rpc, bool input) {
     rpc->broken = true;
     if (errno == EPIPE || rpc->error)

@@ -1,6 +1,6 @@
 // JSON-RPC 2.0 in the frames of the Language Server Protocol 3.17 ("Base Protocol"): Content-Length headers
-// and a JSON body, over two file descriptors; or the bodies alone, one a call, where the program is a module
-// of another.
+// and a JSON body, over two file descriptors; or only the bodies, one per call, if the program is a module of
+// another.
 //
 // Ownership: rpc_read returns a new reference; functions that take a json_t take over its reference, except
 // for ids. Errors: a peer that hangs up or does not send frames ends the connection (RPC_END); a body that is
@@ -30,9 +30,9 @@ enum rpc_state {
 };
 
 enum rpc_pending {
-    RPC_NOTHING, // the time is over
+    RPC_NOTHING, // timeout
     RPC_BYTES,   // rpc_read need not wait for the first byte
-    RPC_WOKEN,   // `woken` can be read, and there are no bytes
+    RPC_WOKEN,   // `woken` can be read, but there are no bytes
 };
 
 // Takes a message that the server sends: JSON in UTF-8, only for the call.
@@ -41,10 +41,10 @@ typedef void rpc_sender(void *context, const char *text, size_t length);
 struct rpc {
     int in, out;
     int woken;              // another descriptor that rpc_wait looks at; -1: none
-    rpc_sender *sender;     // in place of both; NULL: there is none
+    rpc_sender *sender;     // used instead of both; NULL: there is none
     void *context;          // of it
     struct strbuf received; // bytes not yet parsed
-    size_t taken;           // of them
+    size_t taken;           // of `received`, already parsed
     bool broken;            // a stream failed, or the client is gone
     int error;              // errno of that; 0: the client ended
     bool input_failed;      // else the output
@@ -53,7 +53,7 @@ struct rpc {
 void rpc_init(struct rpc *rpc, int in, int out);
 void rpc_init_sender(struct rpc *rpc, rpc_sender *sender, void *context);
 void rpc_finish(struct rpc *rpc);
-// The message of a text; NULL where it is not JSON, which is answered here.
+// Parses the message in a text; NULL: it is not JSON, which is answered here.
 json_t *rpc_parse(struct rpc *rpc, const char *text, size_t length);
 // Waits for a message.
 enum rpc_state rpc_read(struct rpc *rpc, json_t **message);

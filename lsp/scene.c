@@ -40,7 +40,7 @@ void scenes_finish(struct scenes *scenes) {
     asset_store_destroy(scenes->store);
 }
 
-// Nothing is known of text that is not a scene's, such as a mesh's or the settings'.
+// Text that is not a scene's, such as a mesh's or the settings', may affect any scene.
 void scenes_touch(struct scenes *scenes, str path) {
     const struct document *document = path.len ? documents_find_path(scenes->documents, path) : NULL;
     for (uint32_t i = 0; i < scenes->count; i++) {
@@ -76,7 +76,7 @@ static void note_paths(void *context) {
     }
 }
 
-// What the scene consists of; kept if the new text could not be read that far.
+// Notes the scene's files; keeps the old list if the new text could not be read that far.
 void lsp_scene_note_files(struct lsp_scene *scene, struct session *session) {
     uint32_t count = session->origin.files.count;
     struct noting noting = {session, count ? heap_zeroed(count, sizeof *noting.files) : NULL, 0};

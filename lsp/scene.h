@@ -1,9 +1,9 @@
 // The scenes that the open documents belong to, each loaded as `glint check` loads it, with the editor's
 // texts in place of the files.
 //
-// A document that another scene includes is checked as a part of that scene, and not by itself: it would lack
-// what the others define. Candidates for scenes are open documents, and scene files beside the document or in
-// the folders above it, up to the scene's root.
+// A document that another scene includes is checked as a part of that scene, not by itself, because it would
+// lack what the others define. Candidates for scenes are open documents, and scene files beside the document
+// or in the folders above it, up to the scene's root.
 // A document counts as a scene by its name (`*.glint.*`) or by its text, so that other YAML and XML files are
 // ignored; `.glintrc.yaml` is checked as settings.
 // Ownership: scenes_finish frees all. Thread safety: one thread.
@@ -18,15 +18,15 @@ struct lsp_scene {
     str path;           // of the main file, canonical
     struct session session;
     bool loaded;         // the session must be finished
-    bool is_fresh;       // it was loaded since scenes_refresh last said so
+    bool is_fresh;       // it was loaded since scenes_refresh last reported changes
     bool is_stale;       // a text has changed since it was loaded
     bool is_wanted;      // an open document is its main file, or belongs to it
     bool lacks_lint;     // the rules about light did not run at the last load
     bool lacks_pixels;   // an image's pixels have not been decoded since it changed
-    double lint_seconds; // that they took in their last run
-    str *files;          // canonical, of the main file and its includes as of the last load that got so far
+    double lint_seconds; // that these rules took in their last run
+    str *files;          // canonical, of the main file and its includes, from the last load that got that far
     uint32_t file_count;
-    json_t *names; // element: the names that it had when the text was last without errors of syntax
+    json_t *names; // by element: its names when the text last had no syntax errors
 };
 
 struct scenes {
@@ -61,7 +61,7 @@ struct file_overlay *scenes_overlays(const struct scenes *scenes);
 
 // ---- scene_find.c: which scene a document belongs to
 
-// Looks, once for each time that it is opened, for scenes around the document that include it, and adds them.
+// Searches for scenes around the document that include it, once each time it is opened, and adds them.
 void scenes_place(struct scenes *scenes, struct document *document);
 bool scenes_is_settings(str path);
 // Whether the document must be checked as a scene.
@@ -70,12 +70,12 @@ bool scenes_is_scene(struct document *document);
 // ---- scene_refresh.c
 
 enum scenes_effort {
-    SCENES_QUICK, // without the rules about light, if they took long the last time, and without the pixels
-                  // of images that are new or have changed
+    SCENES_QUICK, // without the rules about light, if they took long last time, and without the pixels of new
+                  // or changed images
     SCENES_WHOLE,
 };
-// Decides which scenes the open documents belong to, and loads those that are stale, or lack what the effort
-// asks for. Scenes that no open document needs any more are forgotten. Returns whether anything has changed.
+// Decides which scenes the open documents belong to, and loads those that are stale or lack what `effort`
+// asks for. Scenes that no open document needs are dropped. Returns whether anything has changed.
 bool scenes_refresh(struct scenes *scenes, enum scenes_effort effort);
 
 #endif

@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum {
-    FOLDERS_MOST = 8,      // above a document that are searched for scenes including it
+    FOLDERS_MOST = 8,      // above a document, searched for scenes that include it
     CANDIDATES_MOST = 200, // files in each
 };
 #define CANDIDATE_BYTES ((uint64_t)1 << 20)
@@ -33,7 +33,7 @@ static bool holds(str text, str what) {
     return false;
 }
 
-// Once it was a scene it stays one, whatever is typed.
+// Once a scene, a document stays one, whatever is typed.
 bool scenes_is_scene(struct document *document) {
     str text = document_text(document);
     if (!document->is_scene && is_scene_path(document->path))

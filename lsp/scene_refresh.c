@@ -1,4 +1,4 @@
-// Keeping the scenes up to date with the open documents: loading them, and which are needed.
+// Keeps the scenes up to date with the open documents: loads them, and decides which are needed.
 #include "grammar/schema.h"
 #include "lsp/scene.h"
 
@@ -9,9 +9,9 @@
 #include <string.h>
 
 enum {
-    ROUNDS_MOST = 4, // rounds until every document has its scene: what one load finds may need another
+    ROUNDS_MOST = 4, // until every document has its scene: what one load finds may need another
 };
-// Rules about light that take longer wait until nobody types.
+// If the rules about light take longer, they wait until nobody types.
 #define LINT_SECONDS_QUICK 0.1
 
 // ---- loading
@@ -70,7 +70,7 @@ static void load(struct scenes *scenes, struct lsp_scene *scene, enum scenes_eff
         session_load_settings(&scene->session, &options);
     else
         load_scene(scene, &options, scenes->store);
-    // The text belongs to the session by now.
+    // The session owns the text now.
     scene->session.options.overlays = NULL;
     scene->session.options.overlay_count = 0;
     free(overlays);
@@ -99,7 +99,7 @@ static void want_owners(struct scenes *scenes, str path) {
     }
 }
 
-// Every document that is a scene gets one; returns whether some had none.
+// Adds a scene for every document that needs one; returns whether any was missing.
 static bool add_missing(struct scenes *scenes) {
     bool added = false;
     for (uint32_t i = 0; i < scenes->documents->count; i++) {

@@ -14,7 +14,7 @@ enum {
 
 // ---- capabilities
 
-// Of the client's encodings the first that we know; UTF-16 if it names none.
+// The first of the client's encodings that we know; UTF-16 if it names none.
 static enum position_encoding choose_encoding(const json_t *params) {
     const json_t *general = json_object_get(json_object_get(params, "capabilities"), "general");
     const json_t *offered = json_object_get(general, "positionEncodings");
@@ -134,7 +134,7 @@ static json_t *scene_files_glob(void) {
     return text;
 }
 
-// A mesh that another program writes is as much a part of the scene as its text.
+// Meshes are watched too: a mesh that another program writes is as much a part of the scene as its text.
 static void initialized(struct server *server, const json_t *params) {
     (void)params;
     if (!server->may_watch)
@@ -153,7 +153,7 @@ static void initialized(struct server *server, const json_t *params) {
 enum without_scene {
     ANSWER_NULL,
     ANSWER_EMPTY, // a list
-    ANSWER_STILL, // it needs none
+    ANSWER_STILL, // the method needs no scene
 };
 
 static const struct method {
@@ -199,7 +199,7 @@ static void run_answer(void *context) {
     a->result = a->answer(&a->request);
 }
 
-// When memory runs out in a session's arena, or in the request's own, only the request ends.
+// If memory runs out in a session's arena, or in the request's own, only the request fails.
 static json_t *answer(struct server *server, const struct method *method, const json_t *params, bool *good) {
     struct arena arena;
     struct document *document = documents_find(&server->documents, uri_of(params));
@@ -298,7 +298,7 @@ static bool take(struct server *server, json_t *message) {
     return true;
 }
 
-// Its connection is there already.
+// Starts a server that has its connection already.
 static void start(struct server *server, const struct session_options *settings) {
     json_set_alloc_funcs(heap_alloc, free);
     server->published = json_object();

@@ -1,8 +1,8 @@
 // `glint lsp`: a server of the Language Server Protocol 3.17 for scenes, over two file descriptors, or
 // message by message.
 //
-// What a schema cannot offer: every diagnostic of `glint check` while the user types, with its fixes;
-// definitions and uses of names, over includes and spellings; meshes, images and includes as links; names,
+// It offers what a schema cannot: every diagnostic of `glint check` while the user types, with its fixes;
+// definitions and uses of names, across includes and spellings; meshes, images and includes as links; names,
 // words and files as completions; the outline; formatting. It reads files and writes none: changes are sent
 // to the editor.
 // Thread safety: one thread; previews are drawn on one of their own.
@@ -22,20 +22,21 @@ struct lsp_fault {
 };
 
 // Serves until the client says `exit` or hangs up, or a stream fails. `settings`: the limits, folders and
-// policy of every scene. `devices`: what draws previews; NULL: the reference does. The exit status that the
-// protocol asks for: 0 after `shutdown`, else 1.
+// policy of every scene. `devices`: what draws previews; NULL: the reference does. Returns the exit status of
+// the protocol: 0 after `shutdown`, else 1.
 int lsp_serve(int in, int out, const char *version, const struct session_options *settings,
               const struct preview_devices *devices, struct lsp_fault *fault);
 
-// The same where no stream can be waited for, as in a web worker, and without previews. lsp_open returns NULL
-// where memory ends; lsp_close takes its result and returns the exit status. `send` gets each message of the
+// The same if no stream can be waited for, as in a web worker, and without previews. lsp_open returns NULL if
+// there is no memory; lsp_close takes its result and returns the exit status. `send` gets each message of the
 // server, JSON in UTF-8 without a header, within lsp_take and lsp_refresh, and must not call them.
 struct server *lsp_open(const char *version, const struct session_options *settings,
                         void (*send)(void *context, const char *text, size_t length), void *context);
 // A message of the client. false: it said `exit`.
 bool lsp_take(struct server *server, const char *text, size_t length);
-// Checks what has changed, to be called when no message waits: at once what is quick, and with `idle`, when
-// nobody has typed for a while, what takes longer. Returns whether such a call is still to come.
+// Checks what has changed; call it when no message waits. Without `idle` it does what is quick; with `idle`,
+// when nobody has typed for a while, also what takes longer. Returns whether a call with `idle` is still
+// needed.
 bool lsp_refresh(struct server *server, bool idle);
 int lsp_close(struct server *server);
 

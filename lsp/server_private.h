@@ -17,9 +17,9 @@ struct server {
     bool has_snippets; // the client takes completions with places to fill in
     bool has_markdown; // and hovers in Markdown
     bool may_watch;    // the client reports files that change on the disk if it is asked to
-    bool was_saved;    // since the last check
+    bool was_saved;    // a document, since the last check
     json_t *published; // URI: its diagnostics, as the client knows them
-    // What was asked for last, about the text and files of loaded scenes.
+    // The last lookups in the text and files of loaded scenes.
     struct position_index index;
     struct {
         const struct session *session;
@@ -36,7 +36,7 @@ struct request {
     struct arena *arena; // only for the request; paths that the session's `files` makes are in it too
     const json_t *params;
     struct document *document;
-    struct lsp_scene *scene; // that the document belongs to, up to date
+    struct lsp_scene *scene; // the document's scene, up to date
     struct session *session; // of that scene
     size_t offset;           // of the place in the document
 };
@@ -47,7 +47,7 @@ json_t *server_range(struct server *server, const struct session *session, span 
 // Must be called whenever scenes may have been loaded again.
 void server_forget(struct server *server);
 
-// Loads what has changed, and tells what is new in it.
+// Loads what has changed, and publishes what is new.
 void server_refresh(struct server *server, enum scenes_effort effort);
 json_t *server_diagnostic(struct server *server, struct session *session, struct arena *arena,
                           const struct diag *diag);
@@ -69,13 +69,13 @@ struct server_preview *server_preview_create(const struct preview_devices *devic
 void server_preview_destroy(struct server_preview *preview);
 // A descriptor that can be read when server_preview_step has something to do; -1: there is none.
 int server_preview_woken(const struct server_preview *preview);
-// A request to execute the command, that a picture will answer.
+// Takes a request to execute the command; a picture will answer it.
 void server_preview_ask(struct server *server, json_t *id, const json_t *params);
-// Answers what is drawn, and begins what waits. Whether something is being drawn.
+// Answers with what was drawn, and begins what waits. Returns whether something is being drawn.
 bool server_preview_step(struct server *server);
 // The client wants no answer to a request any more.
 void server_preview_cancel(struct server *server, const json_t *id);
-// Nor to any.
+// The same for all requests.
 void server_preview_drop(struct server *server);
 
 #endif

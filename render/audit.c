@@ -102,8 +102,8 @@ static enum shot_status look(struct work *w, uint32_t cells, const struct render
     return SHOT_OK;
 }
 
-// Looks may err in one of 20 pictures all together: the first in half of them, each other one in half of what
-// the one before may. What was true after one of them stays true.
+// All looks together may err in one of 20 pictures: the first gets half of that risk, each further one half
+// of the risk of the one before. Bounds of earlier looks still hold.
 static void conclude(struct audit *out, double risk) {
     const double share = (double)out->off / out->pixels;
     out->bound = out->whole ? share : fmin(out->bound, share_bound(out->off, out->pixels, risk));

@@ -1,11 +1,11 @@
 // A picture's own error: pixels spread over it are traced again by the double-precision reference, at the
 // same settings, and compared as displayed.
 //
-// The pixels are one in each cell of a grid, at a place in it that depends on the picture's size alone. A
-// look takes one such grid; there is another one, finer than that before, as long as it is open whether more
-// than the wished share of the picture is off. What is said of the whole picture are the bounds of Clopper
-// and Pearson (1934), together right at AUDIT_CONFIDENCE; where all pixels are traced again it is exact.
-// Errors: as render/shot.h. Thread safety: one thread.
+// The pixels are one in each cell of a grid, at a place in it that depends on the picture's size alone. Each
+// look takes one such grid. Another, finer look follows as long as it is open whether more than the wished
+// share of the picture is off. The bounds for the whole picture are those of Clopper and Pearson (1934), and
+// hold together at AUDIT_CONFIDENCE; if all pixels are traced again they are exact. Errors: as render/shot.h.
+// Thread safety: one thread.
 #ifndef GLINT_RENDER_AUDIT_H
 #define GLINT_RENDER_AUDIT_H
 
@@ -21,7 +21,7 @@ struct audit {
     bool whole;      // they are all of the picture
     double bound;    // the share of the picture's pixels that is off is at most this,
     double floor;    // and at least this
-    uint32_t x, y;   // the first of them that is off, by rows; where there is one
+    uint32_t x, y;   // the first pixel that is off, row by row, if there is one
     double seconds;
 };
 
@@ -29,10 +29,10 @@ struct reference;
 
 struct audit_wish {
     const struct reference *reference; // of the session's scene and the view; NULL: it is made for the audit
-    double share; // whether more of the pixels are off is the question: AUDIT_SHARE, or what the user allows
+    double share; // the audit asks whether more pixels are off: AUDIT_SHARE, or what the user allows
     const uint32_t *samples; // of each pixel, where they differ; NULL: all have the session's
-    uint32_t planned;        // samples of the frame, where a time ended it earlier; 0: the session's
-    bool decides; // it is answered, whatever that takes: at most all pixels. Else there are two looks at most
+    uint32_t planned;        // samples of the frame, if a time limit ended it earlier; 0: the session's
+    bool decides; // looks go on until that is answered, at most to all pixels; else there are two at most
 };
 #define AUDIT_SHARE 0.001
 

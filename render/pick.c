@@ -48,7 +48,7 @@ static enum shot_status log_device(struct pick *pick, struct gpu *gpu, uint32_t 
         status = shot_no_memory(pick->session, "the path");
     struct render_log log = {.segments = segments, .capacity = PICK_SEGMENTS_MAX};
     for (uint32_t i = 0; status == SHOT_OK && i <= pick->sample_count; i++) {
-        // The one that is reported comes last.
+        // The sample that is reported comes last.
         const uint32_t sample = i < pick->sample_count ? i : pick->sample;
         if (renderer_log(shot.renderer, &shot.view.camera, pick->x, pick->y, sample, &log) != RENDER_DONE)
             status = SHOT_DEVICE;
@@ -101,7 +101,7 @@ static enum shot_status log_reference(struct pick *pick, uint32_t camera) {
 // ---- differences
 
 static void differ(struct pick *pick, enum pick_difference_kind kind, uint32_t device, uint32_t reference) {
-    // What a log does not have may be after its end.
+    // A ray that a log does not have may come after its end.
     if ((device == UINT32_MAX && !pick->logs[PICK_DEVICE].whole) ||
         (reference == UINT32_MAX && !pick->logs[PICK_REFERENCE].whole))
         return;
@@ -125,13 +125,14 @@ static vec3 share_of(const struct reference_segment *s) {
                   s->radiance.z * s->tint.z * s->weight};
 }
 
-// In what the pixel gets of it: another cell of a checker, or another place of the background.
+// Whether the pixel gets other colours from them: another cell of a checker, or another place of the
+// background.
 static bool has_other_color(const struct reference_segment *a, const struct reference_segment *b) {
     const double apart = vec3_max_abs(vec3_sub(share_of(a), share_of(b)));
     return !(apart <= PICK_COLOR_ERROR * fmax(1, vec3_max_abs(b->radiance) * b->weight));
 }
 
-// Whether the two hit the same; if so, what leaves it can be compared too.
+// Whether the two rays hit the same; if so, the rays that leave it can be compared too.
 static bool compare_segments(struct pick *pick, uint32_t device, uint32_t reference) {
     const struct reference_segment *a = &pick->logs[PICK_DEVICE].segments[device];
     const struct reference_segment *b = &pick->logs[PICK_REFERENCE].segments[reference];

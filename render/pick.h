@@ -22,7 +22,7 @@ struct pick_log {
     struct reference_segment *segments;
     uint32_t count;
     bool whole; // else PICK_SEGMENTS_MAX ended it
-    // Of the sample; in the device's log only what its rays add, while the reference follows all.
+    // Of the sample; in the device's log only what the logged rays add, while the reference follows all rays.
     vec3 color;
 };
 
@@ -34,7 +34,7 @@ enum pick_difference_kind {
     PICK_OTHER_RAYS,     // one sends a ray that the other, whose log is whole, does not
 };
 #define PICK_DISTANCE_ERROR 1e-4
-#define PICK_COLOR_ERROR    (1.0 / 255) // of 1, or of what the ray adds to the pixel where that is more
+#define PICK_COLOR_ERROR    (1.0 / 255) // of 1, or of what the ray adds to the pixel if that is more
 
 struct pick_difference {
     enum pick_difference_kind kind;
@@ -50,7 +50,7 @@ struct pick {
     uint32_t max_depth;
     struct pick_log logs[2];                // device, reference
     vec3 samples[2][PICK_SAMPLES_MAX];      // the colours of the first samples
-    bool is_sample_whole[PICK_SAMPLES_MAX]; // else the device's is that of PICK_SEGMENTS_MAX rays
+    bool is_sample_whole[PICK_SAMPLES_MAX]; // else the device's colour is of PICK_SEGMENTS_MAX rays
     uint32_t sample_count;
     struct pick_difference differences[PICK_DIFFERENCES_MAX];
     uint32_t difference_count; // reported or not

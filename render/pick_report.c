@@ -81,7 +81,7 @@ static void put_target(const struct pick *pick, const struct reference_segment *
         strbuf_cstr(out, ", stopped by max_depth");
 }
 
-// Inside what the ray goes, where rays know it, and what attenuation has left of its light.
+// The body that the ray is inside, if rays know it, and how much of its light attenuation has left.
 static void put_medium(const struct pick *pick, const struct reference_segment *s, struct strbuf *out) {
     struct where where;
     if (s->medium != HIT_NONE && where_find(pick->session, s->medium, 0, &where)) {
@@ -124,7 +124,7 @@ static void put_path(const struct pick *pick, const struct pick_log *log, struct
         strbuf_format(out, "  and more: the first %u rays were followed\n", log->count);
 }
 
-// Of the image on what is seen, by the reference: the device knows colours alone.
+// The texel of what is seen, from the reference: the device knows only colours.
 static const struct reference_texel *texel_of(const struct pick *pick) {
     const struct reference_segment *seen = &main_log(pick)->segments[0];
     const struct reference_segment *s = &pick->logs[PICK_REFERENCE].segments[0];
@@ -204,7 +204,7 @@ static void put_difference(const struct pick *pick, const struct pick_difference
     strbuf_char(out, '\n');
 }
 
-// Whose colour it is; not `whole`: that of the rays which were followed.
+// Whose colour it is; not `whole`: only that of the rays that were followed.
 static void put_source(const char *words, bool whole, struct strbuf *out) {
     strbuf_format(out, " (%s", words);
     if (!whole)

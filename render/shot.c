@@ -11,7 +11,7 @@
 
 struct opening {
     struct shot *shot;
-    bool asked;            // for the pixels, by the trial that `auto` makes
+    bool asked;            // the trial that `auto` makes has asked for the pixels
     double waited_seconds; // for them
 };
 
@@ -61,7 +61,7 @@ static void show(const void *context, const float *linear, size_t pixels, float 
     image_to_displayed(linear, pixels, *display, shown);
 }
 
-// At a part of the picture.
+// Aims at a part of the picture.
 static void aim(struct shot *shot) {
     const struct shot_region *region = &shot->wish.region;
     struct render_settings *settings = &shot->settings;
@@ -143,7 +143,7 @@ enum shot_status shot_open(struct shot *shot, struct session *session, struct gp
     return shot_open_for(shot, session, gpu, camera, (struct shot_wish){0});
 }
 
-// It is of one place of the camera only.
+// It holds for one camera position only.
 static void drop_reference(struct shot *shot) {
     reference_destroy(shot->reference);
     shot->reference = NULL;

@@ -31,8 +31,8 @@ struct shot_wish {
     bool counts;               // after each frame its rays are counted: render_statistics has them
     bool audits;               // the reference that chose the precision is kept for render/audit.h
     bool copies;               // each model has triangles of its own, even where instances are cheaper
-    // For a session that is not settled: called once all is done that needs no pixels of the background, and
-    // settles it. false: the shot is not opened. NULL: the session is settled.
+    // For a session that is not settled: called once everything is done that needs no pixels of the
+    // background; it settles the session. false: the shot is not opened. NULL: the session is settled.
     bool (*ready)(void *context);
     void *ready_context;
     struct precision_choice *choice; // takes what the trial of `auto` found; NULL: not asked
@@ -54,7 +54,7 @@ struct shot {
 
 // `camera` is an index of session_camera. Leaves a shot that shot_close accepts, whatever the status.
 enum shot_status shot_open(struct shot *shot, struct session *session, struct gpu *gpu, uint32_t camera);
-// The same, for more than pictures.
+// The same, with wishes beyond a picture.
 enum shot_status shot_open_for(struct shot *shot, struct session *session, struct gpu *gpu, uint32_t camera,
                                struct shot_wish wish);
 void shot_close(struct shot *shot);
@@ -64,7 +64,7 @@ static inline enum shot_status shot_status_of(enum render_result result) {
 }
 // Whether all pixels of the region, or of the picture, can be held at once. false: an error in the sink.
 bool shot_fits(struct session *session, const struct shot_region *region);
-// What the session asks for: the settings and how its picture is displayed, for the flat scene as it is.
+// Takes the settings, and how the picture is displayed, from the session, for the flat scene as it is.
 void shot_set_up(struct shot *shot);
 // Reports in the sink that there is no memory for `what`; returns SHOT_SCENE.
 enum shot_status shot_no_memory(struct session *session, const char *what);
@@ -79,15 +79,15 @@ enum shot_status shot_take(struct shot *shot, struct image *image, const struct 
 enum shot_status shot_count(struct shot *shot, const struct render_progress *progress,
                             struct render_statistics *statistics);
 
-// The same as shot_take, but faults stay in the statistics, where their pixels count from the first of the
-// shot's region.
+// Like shot_take, but faults stay in the statistics, with pixels counted from the first of the shot's region.
 enum shot_status shot_take_silently(struct shot *shot, struct image *image,
                                     const struct render_progress *progress,
                                     struct render_statistics *statistics);
 // Makes faults, by kind, errors in the session's sink; their pixels are those of the whole picture.
 void shot_report_faults(struct shot *shot, const struct render_fault faults[RENDER_FAULT_KINDS]);
 
-// The same until `limit` ends it: statistics->samples says how many samples the picture has. NULL: all.
+// Like shot_take, until `limit` ends it: statistics->samples says how many samples the picture has. NULL: it
+// has all.
 enum shot_status shot_take_until(struct shot *shot, struct image *image,
                                  const struct render_progress *progress, const struct render_limit *limit,
                                  struct render_statistics *statistics);

@@ -1,4 +1,4 @@
-// The licences of what a bundle is made of, glint's own first: licences(inputs, modules, source), where `inputs` are the files of esbuild's
+// The licences of what a bundle contains, glint's own first: licences(inputs, modules, source), where `inputs` are the files of esbuild's
 // metafile, `modules` the folder that npm has filled, and `source` the repository.
 import fs from 'node:fs';
 import path from 'node:path';

@@ -1,5 +1,5 @@
-// For a module that draws by WebGPU: JavaScript gets main() as the table has it, whatever the linker calls
-// it, to run it where it may be suspended (gpu/library.js).
+// For a module that draws by WebGPU: JavaScript gets main() by its table entry, whatever the linker calls it,
+// to run it where it can be suspended (gpu/library.js).
 extern void gpuweb_take_main(int (*run)(int, char **));
 extern int main(int, char **);
 

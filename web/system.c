@@ -1,5 +1,5 @@
-// What a module of WebAssembly has no system for: other programs and more than one processor. Who calls these
-// is refused, as anywhere else where they fail.
+// System calls that a WebAssembly module cannot make: for other programs and for more than one processor.
+// They fail, as they may on any system.
 #define _GNU_SOURCE
 #include "files/git_run.h"
 
@@ -12,9 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Module.runProgram(words), where there is one (node has, a page has not), gives {status, out, err}, the last
-// two bytes, or NULL if there is no such program. Returns 0, or which of these it was: 1 no way to run any, 2
-// not this one.
+// Module.runProgram(words), which node has and a page has not, returns {status, out, err}, the last two as
+// bytes, or NULL if there is no such program. Returns 0; 1: no program can be run; 2: not this one.
 EM_JS(int, run_program, (const char *words, int count), {
     if (!Module["runProgram"])
         return 1;

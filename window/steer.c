@@ -6,8 +6,8 @@
 #define WHEEL_FACTOR 1.25
 #define CLICK_PIXELS 3.0
 #define HIGHEST_ANGLE                                                                                        \
-    1.55 // of the view over the horizon: at a right angle, left and right would change places
-#define SECONDS_MOST 0.25     // of a step: after a pause nobody has flown
+    1.55 // highest angle of the view over the horizon: at a right angle, left and right would swap
+#define SECONDS_MOST 0.25     // of a step: a pause is no flight
 #define SPEED_SHARE  (1 / 3.) // of the scene's extent, a second
 #define SPEED_LEAST  1e-9
 #define SPEED_MOST   1e12
@@ -111,7 +111,7 @@ static vec3 turned_about(vec3 point, vec3 pivot, vec3 axis, double angle) {
     return vec3_add(pivot, turn(vec3_sub(point, pivot), axis, angle));
 }
 
-// By how much the camera may turn up (below 0: down) before it looks straight up or down; one that does so
+// How far the camera may turn up (below 0: down) before it looks straight up or down; one that does so
 // already may turn back.
 static double bounded(const struct steer *steer, double angle) {
     const vec3 forward = steer->pose.forward;

@@ -23,7 +23,7 @@ enum steer_kind {
     STEER_BUTTON, // button, down, x, y
     STEER_MOVE,   // x, y
     STEER_WHEEL,  // amount
-    STEER_LEAVE,  // the window is no longer the one that gets keys: all are up
+    STEER_LEAVE,  // the window has lost the keyboard: all keys are up
     STEER_CLOSE,
 };
 
@@ -48,10 +48,10 @@ enum steer_do {
     STEER_NOTHING,
     STEER_QUIT,
     STEER_CAMERA,  // number: from 0
-    STEER_BACK,    // to where the camera is in the scene
+    STEER_BACK,    // back to the scene's camera
     STEER_WRITE,   // the picture
     STEER_PRINT,   // the camera as text
-    STEER_NEXT,    // what is shown of each pixel
+    STEER_NEXT,    // next mode of what is shown of each pixel
     STEER_OVERLAY, // on or off
     STEER_KEYS,    // shown or not
     STEER_PICK,    // x, y
@@ -65,29 +65,29 @@ struct steer_action {
 
 struct steer {
     struct steer_pose pose;
-    vec3 up;      // that nothing rolls away from: unit
+    vec3 up;      // unit; the camera never rolls away from it
     double speed; // scene units a second
-    double pixel; // radians that a pixel of dragging turns
-    vec3 pivot;   // that is turned around
+    double pixel; // radians per pixel of dragging
+    vec3 pivot;   // the point that dragging turns around
     bool has_pivot;
     uint32_t held; // bits of the keys that fly
     bool is_down[2];
     double x, y;           // of the mouse
     double down_x, down_y; // where the left button went down
-    bool is_click;         // and has hardly moved since
+    bool is_click;         // the mouse has hardly moved since
     bool has_turned;       // since the last step
 };
 
-// `extent`: how large the scene is, scene units; `height` of the window in pixels and the camera's field in
-// radians tell how far a pixel turns.
+// `extent`: size of the scene in scene units. The height of the window in pixels and the camera's field in
+// radians decide how far a pixel turns.
 void steer_begin(struct steer *steer, struct steer_pose pose, vec3 up, double extent);
 void steer_resize(struct steer *steer, double height, double field);
-// The camera is put elsewhere.
+// Moves the camera elsewhere.
 void steer_place(struct steer *steer, struct steer_pose pose, vec3 up);
 struct steer_action steer_event(struct steer *steer, const struct steer_event *event);
-// Whether keys are down that fly.
+// Whether keys that fly are down.
 bool steer_is_flying(const struct steer *steer);
-// Time goes by. Whether the camera has moved, or turned, since the last step.
+// Lets time pass. Returns whether the camera has moved or turned since the last step.
 bool steer_step(struct steer *steer, double seconds);
 
 #endif

@@ -9,9 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define QUIET_SECONDS 0.01 // a file that is being written is whole after so long
-#define STILL_SECONDS 0.06 // the eye rests after so long
-#define IDLE_SECONDS  0.02 // between two looks at what the system tells of files, when all is done
+#define QUIET_SECONDS 0.01 // a file that is being written is taken as whole after this time
+#define STILL_SECONDS 0.06 // the eye is taken to rest after this time
+#define IDLE_SECONDS  0.02 // between two checks for changed files, when all is done
 
 // ---- the scene
 
@@ -75,7 +75,7 @@ static bool is_hidden(const struct viewer *v) {
 
 // ---- the loop
 
-// What there is to do when nothing else happens. false: the device failed.
+// Draws what is left to draw when nothing else happens. false: the device failed.
 static bool draw(struct viewer *v, bool has_acted) {
     if (is_hidden(v))
         return true;

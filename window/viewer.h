@@ -1,9 +1,9 @@
-// A window in which one flies through a live scene: the whole of `glint view`.
+// A window for flying through a live scene: all of `glint view`.
 //
 // After any change a picture of fewer pixels is there at once, then one of all pixels, then more samples as
-// long as nothing happens. A picture of n samples is, bit for bit, the one that `glint render` makes from
-// there with that many samples and that size. The scene follows its files (render/live/live.h). Errors: enum
-// viewer_status; what there is to say goes to the host. Ownership: as live.h; the host outlives it. Thread
+// long as nothing happens. A picture of n samples equals, bit for bit, the one that `glint render` makes from
+// the same place with as many samples and the same size. The scene follows its files (render/live/live.h).
+// Errors: enum viewer_status; messages go to the host. Ownership: as live.h; the host outlives it. Thread
 // safety: the main thread, which is the gpu's too.
 #ifndef GLINT_WINDOW_VIEWER_H
 #define GLINT_WINDOW_VIEWER_H
@@ -22,8 +22,8 @@ enum viewer_status {
 // Who shows text and writes files.
 struct viewer_host {
     void *context;
-    void (*say)(void *context, str line); // what the user asked for: where a pixel's body is, a camera
-    // What a load has found, and what it did. `is_broken`: the picture stays that of before.
+    void (*say)(void *context, str line); // what the user asked for: a pixel's body, or a camera
+    // What a load has found, and what it did. `is_broken`: the previous picture stays.
     void (*loaded)(void *context, struct live *live, bool is_broken);
     // false: the host has said why.
     bool (*write)(void *context, const struct image *image, struct image_display display, uint32_t samples);
@@ -36,7 +36,7 @@ struct viewer_wish {
     bool is_xml;      // how cameras are printed
 };
 
-// Until the window is closed.
+// Runs until the window is closed.
 enum viewer_status viewer_run(const struct viewer_wish *wish, const struct viewer_host *host, struct gpu *gpu,
                               struct window *window, struct live *live);
 

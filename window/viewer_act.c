@@ -203,6 +203,6 @@ bool viewer_act(struct viewer *v) {
     if (steer_step(&v->steer, now - v->stepped))
         viewer_aim(v);
     v->stepped = now;
-    // The wheel asks for nothing but a number in the text.
+    // The wheel only changes a number in the text.
     return count > 0 || v->steer.speed != v->shown_speed;
 }

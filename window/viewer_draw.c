@@ -10,12 +10,12 @@
 
 enum {
     SHRINK_MOST = 8,
-    SAMPLES_MOST = 256,   // that the viewer goes on to by itself
+    SAMPLES_MOST = 256,   // at which the viewer stops by itself
     SAMPLES_FACTOR = 4,   // from one number of samples to the next
-    MOST_RAYS_KNOWN = 16, // least samples that are worth a further picture
+    MOST_RAYS_KNOWN = 16, // least samples for which a further picture is worth it
 };
-#define COARSE_SECONDS 0.035 // that a picture on the way may take
-#define SHOW_SECONDS   0.1   // between two looks at a picture that gets its samples
+#define COARSE_SECONDS 0.035 // that a picture while moving may take
+#define SHOW_SECONDS   0.1   // between two updates of a picture that is getting samples
 
 static bool fit(struct viewer_picture *picture, uint32_t width, uint32_t height) {
     picture->samples = 0;
@@ -43,7 +43,7 @@ static void swap_pictures(struct viewer *v) {
 
 // ---- few pixels
 
-// As few as it takes to be done soon, by what pixels took before.
+// Shrinks so that the picture is done soon, judged by what pixels took before.
 static uint32_t choose_shrink(const struct viewer *v) {
     const double seconds = v->pixel_seconds * v->width * v->height;
     uint32_t shrink = 2;
@@ -82,7 +82,7 @@ static uint32_t scene_samples(const struct viewer *v) {
     return (uint32_t)v->live->session->image->samples;
 }
 
-// How many the next picture has; 0: there is none to be made.
+// The number of samples of the next picture; 0: there is none to be made.
 static uint32_t next_samples(const struct viewer *v) {
     const uint32_t made = v->is_coarse ? 0 : v->shown.samples, own = scene_samples(v);
     if (made < own)
@@ -110,8 +110,8 @@ static bool make_room_for_error(struct viewer *v) {
     return v->squares && v->before;
 }
 
-// The squares of what a sample differs by from the mean (Welford 1962), of the sum of its channels over
-// three.
+// Adds the squared differences between a sample and the mean (Welford 1962), for the mean of its three
+// channels.
 static void add_squares(struct viewer *v, uint32_t samples, const float *mean) {
     const size_t pixels = (size_t)v->width * v->height;
     for (size_t i = 0; i < pixels; i++) {
@@ -138,7 +138,7 @@ static void take(struct viewer *v, uint32_t samples, const float *rgb, double se
     v->is_stale = v->is_coarse = false;
 }
 
-// A sample is there for all pixels. It is shown if nothing better is.
+// All pixels have one more sample. It is shown unless something better is.
 static bool goes_on(void *context, uint32_t samples, const float *rgb) {
     struct drawing *d = context;
     struct viewer *v = d->v;

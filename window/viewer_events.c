@@ -1,8 +1,8 @@
 // What happened since the viewer looked last.
 #include "window/viewer_private.h"
 
-// Those that came since the last time, and what they ask for; more than there is room for at a time are left
-// for later.
+// Takes the events since the last time, and what they ask for; those for which there is no room are left for
+// later.
 void viewer_take_events(struct viewer *v) {
     struct steer_event event;
     while (v->action_count < VIEWER_ACTIONS && window_next(v->window, &event)) {

@@ -1,9 +1,9 @@
 // What the window shows while a scene is loaded: a bar, and which step it is.
 //
-// The work is not asked how much is left of it, which nobody knows. Each step has a share of the bar, and
-// each loop that it runs through fills half of what is left of that share. So the bar never goes back, and
-// never stands still while something is done. It is drawn between two pieces of the work, on the thread that
-// does it, and takes a fiftieth of the time at most.
+// Nobody knows how much work is left. Each step has a share of the bar, and each loop in it fills half of
+// what is left of that share. So the bar never goes back, and never stands still while something is done. It
+// is drawn between two pieces of the work, on the thread that does it, and takes a fiftieth of the time at
+// most.
 #include "core/clock.h"
 #include "window/viewer_private.h"
 
@@ -17,7 +17,7 @@ enum {
 };
 #define LEAST_SECONDS 0.05 // between two bars
 #define MOST_PART     0.02 // of the time
-#define LATE_SECONDS  0.15 // that a load may take before there is a bar over the picture
+#define LATE_SECONDS  0.15 // that a load may take before a bar covers the picture
 
 static const struct {
     double begin;
@@ -49,7 +49,7 @@ static void put_bar(struct viewer *v) {
     canvas_fill(canvas, 0, canvas->height > bar ? canvas->height - bar : 0, end, bar, BAR_COLOR);
 }
 
-// Where that fails, so does what is loaded, which says why.
+// If this fails, so does the load, which says why.
 static void show_bar(struct viewer *v) {
     const double begun = clock_seconds();
     uint32_t width, height;
@@ -65,7 +65,7 @@ static void show_bar(struct viewer *v) {
     v->loading.paused = now + (rest > LEAST_SECONDS ? rest : LEAST_SECONDS);
 }
 
-// Each step is shown when it begins, if anything is.
+// Each step is shown when it begins, if the bar is shown at all.
 static void begin_step(struct viewer *v, enum viewer_step step) {
     struct viewer_loading *loading = &v->loading;
     if (step <= loading->step && step > 0)
@@ -88,7 +88,7 @@ static void look(void *context, size_t done, size_t count) {
     show_bar(v);
 }
 
-// Phases that end on other threads are none of these.
+// Phases that end on other threads do not count.
 static void phase_ended(void *context, const char *name) {
     const str phase = str_from(name);
     if (str_equal_cstr(phase, "read"))

@@ -9,7 +9,7 @@ bool viewer_set_up(struct viewer *v, uint32_t width, uint32_t height, uint32_t s
     shot->settings.width = width;
     shot->settings.height = height;
     shot->settings.samples = samples;
-    // All pixels have as many samples: they are shown on the way.
+    // All pixels get the same number of samples, because they are shown on the way.
     shot->settings.error = 0;
     return renderer_change(shot->renderer, &shot->flat, &shot->settings);
 }

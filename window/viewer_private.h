@@ -28,7 +28,7 @@ struct viewer_picture {
     struct image image;
     uint32_t samples; // 0: none yet
     struct render_statistics statistics;
-    double seconds; // of a sample of all pixels
+    double seconds; // per sample of all pixels
 };
 
 // Steps of a load, in their order.
@@ -42,12 +42,12 @@ enum viewer_step {
 
 // A load that is going on.
 struct viewer_loading {
-    struct timeline timeline; // that says where it is
+    struct timeline timeline; // says how far the load is
     struct parallel_looker looker;
     enum viewer_step step;
     double rest;     // of the step: 1 at its beginning, half as much after each loop
     double fraction; // of the loop that goes on
-    double paused;   // clock: until when the bar is not drawn again
+    double paused;   // clock: the bar is not drawn again before
 };
 
 struct viewer {
@@ -59,12 +59,12 @@ struct viewer {
     struct gpu_screen *screen;
     struct canvas canvas;
     struct steer steer;
-    uint32_t camera;        // of the scene, that the view began with
-    struct view scene;      // through that camera, as the scene has it
-    struct view_camera eye; // that is looked through
+    uint32_t camera;        // index of the scene's camera that the view began with
+    struct view scene;      // through that camera, as in the scene
+    struct view_camera eye; // the camera that is looked through
     uint32_t width, height; // of the window
     struct viewer_picture shown, next;
-    double *squares;        // of what the samples differ by, by pixel, for VIEWER_ERROR
+    double *squares;        // per pixel, of the samples' differences, for VIEWER_ERROR
     float *before;          // the mean of the samples before
     struct hit_pixel *hits; // of the shown picture's pixels, for modes that need them
     bool has_hits;
@@ -79,46 +79,47 @@ struct viewer {
     bool wants_write; // the picture, once it has all pixels and the scene's samples
     struct steer_action actions[VIEWER_ACTIONS]; // that were seen while a picture was made
     uint32_t action_count;
-    double pixel_seconds; // that a sample of a pixel takes
+    double pixel_seconds; // per sample of a pixel
     double moved;         // clock: when the eye moved last
-    double stepped;       // clock: when time went by last
-    bool has_changed;     // a file that the scene is made from
-    double shown_speed;   // of flight, that the text in the window says
+    double stepped;       // clock: time of the last step
+    bool has_changed;     // a file of the scene has changed
+    double shown_speed;   // speed of flight that the window's text states
     struct viewer_loading loading;
     char said[256]; // about what was clicked, or done
 };
 
-// viewer_look.c: settings of a picture of this size, with so many samples. false: see gpu_error.
+// viewer_look.c: sets up a picture of this size and number of samples. false: see gpu_error.
 bool viewer_set_up(struct viewer *v, uint32_t width, uint32_t height, uint32_t samples);
 // The first hits of what is shown. false: see gpu_error.
 bool viewer_find_hits(struct viewer *v);
 
-// viewer_load.c: live_load, while the window shows how far it is.
+// viewer_load.c: live_load, with its progress shown in the window.
 void viewer_begin_loads(struct viewer *v);
 enum live_state viewer_load(struct viewer *v);
 
 // viewer_draw.c: a picture of few pixels, with one sample. false: see gpu_error.
 bool viewer_draw_coarse(struct viewer *v);
-// The next samples of the whole picture, until something happens. false: see gpu_error.
+// Draws the next samples of the whole picture, until something happens. false: see gpu_error.
 bool viewer_draw_more(struct viewer *v);
 bool viewer_is_finished(const struct viewer *v);
 void viewer_drop_pictures(struct viewer *v);
 
-// viewer_show.c: what is there, with text over it, to the window. false: see gpu_error.
+// viewer_show.c: shows the current picture, with text over it. false: see gpu_error.
 bool viewer_show(struct viewer *v);
 
-// viewer_act.c: does what events that came ask for. Whether there were any.
+// viewer_act.c: does what new events ask for. Returns whether there were any.
 bool viewer_act(struct viewer *v);
-// Writes the picture, if that is wanted and it is whole. false: see gpu_error.
+// Writes the picture, if wanted and whole. false: see gpu_error.
 bool viewer_write(struct viewer *v);
 
 // viewer_events.c: events become actions and a steered camera.
 void viewer_take_events(struct viewer *v);
-// Whether something happened that a picture under way must end for. What events do waits for viewer_act.
+// Whether something happened for which a picture under way must stop. Events are acted on later, by
+// viewer_act.
 bool viewer_is_disturbed(struct viewer *v);
 // Whether a file has changed since the scene was loaded.
 bool viewer_has_changed(struct viewer *v);
-// The eye goes where the camera is in the scene.
+// Moves the eye back to the scene's camera.
 void viewer_go_back(struct viewer *v);
 
 #endif

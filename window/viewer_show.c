@@ -16,9 +16,9 @@ enum {
     TEXT_COLOR = 0xf0f0f0,
     WARNING_COLOR = 0xffb060,
     LINES_MAX = 16,
-    FINDINGS_MOST = 3, // that are shown; the terminal has all
+    FINDINGS_MOST = 3, // shown at most; the terminal has all
     FEATURE_LINES = 4,
-    COST_MOST = 8, // rays, that are shown as the brightest
+    COST_MOST = 8, // rays shown as the brightest
 };
 #define ERROR_MOST 0.1 // of a channel, shown as the brightest
 
@@ -114,7 +114,7 @@ static uint64_t rays_in(const struct render_rays *rays) {
     return rays->primary + rays->reflected + rays->refracted + rays->shadow;
 }
 
-// Their names, in lines of at most so many characters.
+// Puts the features' names into lines of at most `room` characters.
 static uint32_t put_features(uint64_t mask, size_t room, struct strbuf lines[], uint32_t most) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < FEATURE_COUNT; i++) {
@@ -180,7 +180,7 @@ static void put_keys(struct viewer *v, uint32_t scale) {
     canvas_put_lines(&v->canvas, texts, sizeof lines / sizeof *lines, scale, TEXT_COLOR, false);
 }
 
-// The next line of at most `room` characters, which ends where a word does if it can.
+// The next line of at most `room` characters, ending at a word's end if possible.
 static str take_line(str *left, size_t room) {
     size_t end = left->len < room ? left->len : room;
     if (left->len > room)
@@ -191,7 +191,7 @@ static str take_line(str *left, size_t room) {
     return line;
 }
 
-// What is wrong with the files: without their lines, which an editor shows, as long lines as there is room.
+// The findings about the files, without the source lines, which an editor shows; lines are as long as fits.
 static void put_findings(struct viewer *v, uint32_t scale) {
     struct session *session = live_findings(v->live);
     const size_t room = v->width / (CANVAS_GLYPH_WIDTH * scale);
@@ -206,8 +206,7 @@ static void put_findings(struct viewer *v, uint32_t scale) {
         while (end < left.len && left.ptr[end] != '\n')
             end++;
         str line = str_trim(str_slice(left, 0, end));
-        // Below a finding its line of the file is indented, as what marks a part of it is, and help behind
-        // '='.
+        // Below a finding, its line of the file and the marks under it are indented; so is help, behind '='.
         if (left.ptr[0] == ' ' && line.len && line.ptr[0] != '=')
             line = STR("");
         while (line.len && room && count < LINES_MAX)

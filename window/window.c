@@ -18,7 +18,7 @@ enum {
     EVENTS_MAX = 256,
     LEAST_WIDTH = 64,
     LEAST_HEIGHT = 48,
-    ROOMY_WIDTH = 600, // points from which on a dot of text is two of them wide
+    ROOMY_WIDTH = 600, // points; from this width on a dot of text is two points wide
 };
 
 // The functions that are used, by their names without the library's own.
@@ -64,7 +64,7 @@ struct window {
     GLFWwindow *handle;
     struct steer_event events[EVENTS_MAX];
     uint32_t first, count;
-    double x, y; // of the mouse, by the last event
+    double x, y; // of the mouse, at the last event
     char *error; // where the library's messages go while it is opened; NULL: nowhere
     bool is_begun;
 };
@@ -82,7 +82,7 @@ static void on_error(int code, const char *text) {
 
 static struct steer_event *push(GLFWwindow *handle) {
     struct window *window = opened->glfw.GetWindowUserPointer(handle);
-    // The oldest ones go: nobody has looked for long.
+    // The oldest ones are dropped: nobody has looked for long.
     if (window->count == EVENTS_MAX) {
         window->first = (window->first + 1) % EVENTS_MAX;
         window->count--;
@@ -92,7 +92,7 @@ static struct steer_event *push(GLFWwindow *handle) {
     return event;
 }
 
-// By their places on a keyboard, which letters are named after.
+// Keys by their position on a keyboard; letters name positions.
 static int key_of(int key) {
     if ((key >= GLFW_KEY_A && key <= GLFW_KEY_Z) || (key >= GLFW_KEY_0 && key <= GLFW_KEY_9))
         return key;
@@ -132,7 +132,7 @@ static void on_button(GLFWwindow *handle, int button, int action, int mods) {
     event->kind = STEER_BUTTON;
     event->button = button;
     event->down = action == GLFW_PRESS;
-    // Where it was then: by now it may be elsewhere.
+    // The mouse position at that time: by now it may be elsewhere.
     event->x = opened->x;
     event->y = opened->y;
 }
@@ -232,7 +232,7 @@ static bool create(struct window *window, const char *title, int width, int heig
     const struct glfw *glfw = &window->glfw;
     fit(glfw, &width, &height);
     glfw->WindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-    // Until it has the size that it gets by the display's scale.
+    // Hidden until it has its size for the display's scale.
     glfw->WindowHint(GLFW_VISIBLE, GLFW_FALSE);
     window->handle = glfw->CreateWindow(width, height, title, NULL, NULL);
     if (!window->handle)
@@ -283,7 +283,7 @@ void window_close(struct window *window) {
         window->glfw.DestroyWindow(window->handle);
     if (window->is_begun)
         window->glfw.Terminate();
-    // The library stays where it is: what it started may not be over.
+    // The library stays loaded: what it started may still run.
     opened = NULL;
     free(window);
 }

@@ -20,7 +20,7 @@ static void add_origin(bool has_devices, struct strbuf *out) {
                   has_devices ? "draws on Vulkan devices" : "built to check: draws on no device");
 }
 
-// libjpeg says its version only to who compiles.
+// libjpeg gives its version only at compile time.
 void about_program(const char *version, bool has_devices, struct strbuf *out) {
     const XML_Expat_Version expat = XML_ExpatVersionInfo();
     strbuf_format(out, "glint %s\n", version);

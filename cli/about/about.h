@@ -6,8 +6,8 @@
 
 #include "core/strbuf.h"
 
-// Of what it was built from (cmake/about.cmake): a short hash, with '+' where files differed from it, and the
-// day, YYYY-MM-DD. Empty where the build did not know.
+// The commit that it was built from (cmake/about.cmake): a short hash, with '+' if files differed from it,
+// and its day, YYYY-MM-DD. Empty if the build did not know.
 extern const char about_commit[], about_date[];
 
 // The lines of `glint --version`; the first is "glint VERSION".

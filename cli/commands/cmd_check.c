@@ -1,8 +1,8 @@
-// glint check SCENE...: every finding of every file, in the order of the command line; folders by name. With
-// --changed, of the scenes that read what changed.
+// glint check SCENE...: every finding of every file, in the order of the command line, in folders by name.
+// With --changed, only scenes that read a changed file.
 //
-// Files are checked at the same time, each with a session, a sink and a record of its own; what is reported
-// about each is kept until all are done, so that the output does not depend on which was first.
+// Files are checked at the same time, each with a session, a sink and a record of its own; each file's report
+// is kept until all are done, so the output does not depend on which was first.
 #include "cli/commands/commands.h"
 #include "cli/commands/fix.h"
 #include "cli/commands/folder_scenes.h"
@@ -43,7 +43,7 @@ struct check_store {
 
 struct check_file {
     const char *path;
-    const char *folder; // that it was found in; NULL: it was named
+    const char *folder; // the folder that it was found in; NULL: it was named
     struct strbuf text; // CHECK_TEXT
     struct report_scene record;
     struct baseline_found found; // if a baseline is written
@@ -52,7 +52,7 @@ struct check_file {
     int status;
     bool failed;   // no memory for the record
     bool affected; // by what changed
-    bool unnamed;  // it begins as a scene does, and has another name
+    bool unnamed;  // it begins as a scene does, but has another name
 };
 
 struct check {
@@ -66,13 +66,13 @@ struct check {
     struct files known;       // that paths are looked up in
     struct str_map paths;     // of files, links of their folders resolved
     struct scene_names names; // of those in folders, and of others that begin as scenes do
-    uint32_t named;           // scenes that are named where all others are found
-    uint32_t first;           // file of the step; at last, the first of those others
+    uint32_t named;           // number of scenes that were named; all others were found
+    uint32_t first;           // first file of the step; at the end, the first of those others
     struct check_store *stores;
     unsigned store_count;
     void (*step)(struct check *check, struct check_file *file, struct asset_store *store); // of all files
     struct changed *changed;   // NULL: everything is checked
-    uint32_t looked_at;        // scenes, before those that read nothing that changed were left out
+    uint32_t looked_at;        // scenes before --changed left some out
     struct baseline *baseline; // NULL: none
     str found_folder;          // of the baseline that is written; empty: none is
 };
@@ -141,7 +141,7 @@ static void find_affected(struct check *check, struct check_file *file, struct a
 static void step_some(void *context, size_t begin, size_t end) {
     struct check *check = context;
     unsigned slot = 0;
-    // There is a store for each thread, so that one is always free.
+    // There is a store for each thread, so one is always free.
     while (atomic_flag_test_and_set(&check->stores[slot].busy))
         slot = (slot + 1) % check->store_count;
     for (size_t i = begin; i < end; i++)
@@ -174,8 +174,7 @@ static void with_all(struct check *check,
 
 // ---- the files
 
-// A file that is named twice, or is in a folder that is named too, is checked once. NULL: it is there
-// already.
+// A file that is named twice, or is also in a named folder, is checked once. NULL: it is there already.
 static struct check_file *add_file(struct check *check, const char *path, const char *folder) {
     struct arena *arena = &check->cli->arena;
     const str name = str_from(path);
@@ -202,7 +201,7 @@ static int add_folder(struct check *check, int arg, const char *path) {
         add_file(check, found.paths.items[i].ptr, path);
     for (uint32_t i = 0; i < found.others.count; i++)
         *ARENA_PUSH(&cli->arena, &check->names.others) = found.others.items[i];
-    // A file that is named beside it is checked all the same.
+    // Files named besides the folder are still checked.
     if (status == CLI_OK && !found.paths.count && !check->named)
         return cli_no_scene(cli, arg, path, &found);
     return status;
@@ -252,7 +251,8 @@ static void keep_affected(struct check *check) {
     check->files.count = kept;
 }
 
-// What begins as a scene does and none reads: those that were named are scenes, the others are warned of.
+// Adds files that begin as scenes do and that no scene reads: named ones are scenes, for others there is a
+// warning.
 static void add_others(struct check *check, bool named) {
     const struct scene_names *names = &check->names;
     for (uint32_t i = 0; i < names->others.count; i++) {
@@ -290,8 +290,8 @@ static struct sums sum_up(const struct check *check) {
     return sums;
 }
 
-// Folders of scenes of which 'ignore' leaves none: what is green would have checked nothing. Files that are
-// named may be ignored: hooks name what changed.
+// Whether 'ignore' leaves no scene of the folders: success would mean that nothing was checked. Named files
+// may be ignored: hooks name whatever changed.
 static bool is_all_ignored(const struct check *check) {
     bool found = false;
     for (uint32_t i = 0; i < check->files.count; i++)
@@ -308,8 +308,8 @@ static void put_changed(const struct check *check, struct strbuf *out) {
                       check->looked_at == 1 ? "" : "s");
 }
 
-// "glint: 5 errors, 7 warnings in 31 files; 26 clean". One finding in one file says that itself, and where
-// all is well there is nothing to say; but what --changed left out nobody sees, nor that all is ignored.
+// "glint: 5 errors, 7 warnings in 31 files; 26 clean". Left out for one finding in one file, and if all is
+// well; but always there if --changed left scenes out or all is ignored, which nothing else shows.
 static void put_closing(const struct check *check, struct strbuf *out) {
     const struct sums sums = sum_up(check);
     const uint32_t findings = sums.errors + sums.warnings + sums.notes;
@@ -386,7 +386,8 @@ static int write_report(struct check *check) {
     return status;
 }
 
-// Before the check, so that it reports what is left; one file after another, since several may include one.
+// Runs before the check, which then reports what is left; one file after another, since several may include
+// the same one.
 static int fix_files(struct check *check) {
     struct cli *cli = check->cli;
     struct strbuf patch;
@@ -420,7 +421,7 @@ static bool read_baseline(struct check *check, struct baseline *baseline) {
     return baseline_read(baseline, cli->options.baseline, &cli->arena, &cli->sources, &cli->sink);
 }
 
-// What it holds that is gone is said in every format, on standard error: it makes nothing fail.
+// Reports entries of the baseline that are gone, in every format, on standard error; they make nothing fail.
 static void tell_stale(struct check *check) {
     struct strbuf text;
     if (!check->baseline || check->cli->options.quiet)
@@ -431,7 +432,7 @@ static void tell_stale(struct check *check) {
     strbuf_finish(&text);
 }
 
-// What is wrong now must all be in it, or the next check would tell it as new.
+// All current findings must be in it, or the next check would report them as new.
 static bool is_whole(struct check *check, const char *path) {
     for (uint32_t i = 0; i < check->files.count; i++) {
         const struct check_file *file = &check->files.items[i];

@@ -58,8 +58,8 @@ static bool keep_linear(struct comparison *c, int which) {
     return c->linear;
 }
 
-// A float picture does not say how the picture of bytes beside it was toned: if another way than the one
-// assumed brings them much nearer, that way is named.
+// A float picture does not say how the byte picture was toned. If another way than the assumed one brings
+// them much nearer, help names that way.
 static bool offer_display(struct comparison *c) {
     static const char *const tones[] = {[IR_TONE_CLIP] = "clip", [IR_TONE_NORMALIZE] = "normalize"};
     static const char *const transfers[] = {[IR_TRANSFER_NONE] = "none", [IR_TRANSFER_SRGB] = "srgb"};
@@ -94,8 +94,8 @@ static bool offer_display(struct comparison *c) {
     return true;
 }
 
-// Displayed values cannot be turned back into linear floats, the other way round is exact: pictures of two
-// kinds are compared as displayed.
+// Linear floats can be displayed exactly, but not the reverse: pictures of two kinds are compared as
+// displayed.
 static int choose_space(struct comparison *c) {
     const struct cli_measure *m = &c->cli->options.measure;
     const bool linear = c->pictures[0].space == MEASURE_LINEAR && c->pictures[1].space == MEASURE_LINEAR;

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-// OUT's ending says the spelling; where nothing has an ending, it is the other one.
+// OUT's ending decides the spelling; without an ending it is the other one.
 static enum convert_spelling wanted_spelling(struct session *session, const char *out) {
     enum convert_spelling spelling;
     if (convert_spelling_of(str_from(out), &spelling))
@@ -26,7 +26,7 @@ static bool has_ending(struct cli *cli, const char *out) {
     return false;
 }
 
-// Made before anything is reported, since what is wrong with it is a finding too. false: no memory.
+// Made before anything is reported, since its mistakes are findings too. false: no memory.
 static bool make_text(struct cli *cli, struct session *session, struct strbuf *text) {
     const char *out = cli->operands[1];
     if (strcmp(out, "-") != 0 && !session_rebase(session, str_from(out)))
@@ -34,7 +34,7 @@ static bool make_text(struct cli *cli, struct session *session, struct strbuf *t
     return convert_write(session, wanted_spelling(session, out), text) != CONVERT_NO_MEMORY;
 }
 
-// Anchors, and comments inside entries, would be lost for good.
+// Whether IN would be overwritten: its anchors, and comments inside entries, would be lost.
 static bool is_onto_itself(const struct cli *cli) {
     struct stat in;
     struct stat out;

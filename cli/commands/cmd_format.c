@@ -52,7 +52,7 @@ static void write_result(struct formatter *f, const char *path, const char *fold
         worsen(f, cli_write(f->cli, path, text));
 }
 
-// `folder`: that it was found in; NULL: it was named.
+// `folder`: the folder that it was found in; NULL: it was named.
 static void take(struct formatter *f, const char *path, const char *folder, struct layout *layout) {
     const struct cli_options *o = &f->cli->options;
     if (layout->status > LAYOUT_CHANGED) {

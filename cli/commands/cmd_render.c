@@ -47,7 +47,7 @@ static int judge_load(struct rendering *r) {
     return status;
 }
 
-// Waits for the pixels. What the load has to say comes first, and alone if there are errors; then what was
+// Waits for the pixels. Reports findings of the load first, and nothing else if there are errors; then those
 // found meanwhile. An exit code, the same each time.
 static int settle(struct rendering *r) {
     if (!r->is_apart)
@@ -96,7 +96,7 @@ static int draw(struct rendering *r, uint32_t pictures) {
     return status == SHOT_OK ? CLI_OK : drawing_failed(r, status);
 }
 
-// All that is known of a picture is in memory at once.
+// Renders a picture that is held in memory as a whole.
 static int render_at_once(struct rendering *r, uint32_t camera, uint32_t pictures) {
     int status = draw(r, pictures);
     progress_end(&r->progress);
@@ -124,7 +124,7 @@ static int report_stats(struct rendering *r) {
     return status;
 }
 
-// One camera of those that are left: picture, files, statistics. The job is open and uses it.
+// One of the cameras that are left: picture, files, statistics. The job is open and uses this camera.
 static int render_camera(struct rendering *r, uint32_t camera, uint32_t cameras) {
     progress_begin(&r->progress, r->cli->options.quiet);
     int status =
@@ -142,7 +142,7 @@ static int render_camera(struct rendering *r, uint32_t camera, uint32_t cameras)
     return status;
 }
 
-// A device that fails is reported after what the scene has wrong.
+// A device failure is reported after the scene's mistakes.
 static int open_device(struct rendering *r) {
     struct cli_opening *opening = r->opening;
     if (r->job.gpu)
@@ -172,7 +172,7 @@ static int draw_cameras(struct rendering *r, uint32_t first, uint32_t end) {
     return status != CLI_OK ? status : reported;
 }
 
-// --skip-done: what is there is not rendered again.
+// --skip-done: pictures that are there are not rendered again.
 static int leave_done(struct rendering *r, uint32_t *first, uint32_t end) {
     int status = r->cli->options.batch.skip_done ? settle(r) : CLI_OK;
     if (status != CLI_OK || !r->cli->options.batch.skip_done)
@@ -185,7 +185,7 @@ static int leave_done(struct rendering *r, uint32_t *first, uint32_t end) {
     return *first == end ? cli_report(r->cli, r->job.session, !r->cli->options.quiet) : CLI_OK;
 }
 
-// All names that are made of the outputs', through these cameras.
+// Judges all names that are made from those of the outputs, for these cameras.
 static int judge_made(struct rendering *r, uint32_t first, uint32_t end) {
     int status = CLI_OK;
     for (uint32_t k = first; k < end && status == CLI_OK; k++) {
@@ -282,7 +282,7 @@ static bool noise_fits(struct rendering *r) {
     return false;
 }
 
-// Steps between black and white of the output that is rounded most; 0: none is.
+// Steps between black and white in the most coarsely rounded output; 0: none is rounded.
 static double coarsest_levels(const struct rendering *r) {
     double levels = 0;
     for (uint32_t i = 0; i < r->output_count; i++) {
@@ -312,7 +312,7 @@ static size_t encode_all(void *context) {
     return bytes;
 }
 
-// What the command line asks of the job.
+// The job's wishes on the command line.
 static struct job_wish wish_of(struct rendering *r) {
     const struct cli_options *o = &r->cli->options;
     const bool by_reference = cli_device_is_reference(r->cli);

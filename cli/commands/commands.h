@@ -9,8 +9,8 @@
 
 int cmd_render(struct cli *cli);
 int cmd_view(struct cli *cli);
-int cmd_watch(struct cli *cli); // render where --watch was given
-int cmd_batch(struct cli *cli); // render where it is of many pictures, or a film
+int cmd_watch(struct cli *cli); // render with --watch
+int cmd_batch(struct cli *cli); // render of many pictures, or a film
 // Whether the command line asks for that.
 bool batch_is_wanted(const struct cli *cli);
 int cmd_check(struct cli *cli);

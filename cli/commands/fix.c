@@ -27,8 +27,8 @@ static void tell(struct strbuf *text, const struct fixed_file *file) {
                       file->changes == 1 ? "fix" : "fixes");
 }
 
-// The scene that the user named is where it is; what it reads, and what was found in a folder, is where it
-// may be read.
+// The scene that the user named may be anywhere; what it reads, and what was found in a folder, must be where
+// it may be read.
 static int write_file(struct cli *cli, const struct session_options *options, const struct fixed_file *file) {
     struct files files;
     files_init(&files, &cli->arena);
@@ -37,7 +37,7 @@ static int write_file(struct cli *cli, const struct session_options *options, co
     files_add_scene_root(&files, options->path);
     if (options->found_in.len)
         files_add_root(&files, options->found_in);
-    if (file->is_new) // what marks a root lies above the one of now
+    if (file->is_new) // it marks a root that lies above the current one
         files_add_root(&files, path_folder(file->canonical));
     for (uint32_t i = 0; i < options->asset_path_count; i++)
         files_add_root(&files, options->asset_paths[i]);

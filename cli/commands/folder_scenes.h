@@ -7,9 +7,10 @@
 
 // Adds those of a folder. CLI_OK, or CLI_FILE with an error printed.
 int cli_find_scenes(struct cli *cli, const char *folder, struct scene_names *names);
-// That a place has no scene: CLI_USAGE, and the names of those that may be meant.
+// Reports that a place has no scene, with the names that may be meant: CLI_USAGE.
 int cli_no_scene(struct cli *cli, int arg, const char *where, const struct scene_names *names);
-// Warns of files that begin as scenes do, which none of these scenes reads. For who has no session of them.
+// Warns of files that begin as scenes do, which none of these scenes reads. For commands that have no
+// sessions of them.
 void cli_tell_others(struct cli *cli, struct scene_names *names);
 
 #endif

@@ -16,8 +16,8 @@
 #include <string.h>
 #include <unistd.h>
 
-// What a build leaves out: without devices, what measures them; of a module of WebAssembly, whose bytes a
-// browser fetches, what a page has no use for.
+// What a build leaves out: without devices, the commands that measure them; in a WebAssembly module, which a
+// browser downloads, those that a page does not need.
 #if GLINT_DEVICE
 #define MEASURES(run) (run)
 #else
@@ -329,7 +329,7 @@ static int run_command(struct cli *cli, const struct cli_command *command) {
         return CLI_USAGE;
     int status = cli_take_stream(cli, command);
     cli->command = command;
-    if (cli->options.changed) // that asks git first
+    if (cli->options.changed) // this asks git first
         cli_distrust_git(cli);
     else if (status == CLI_OK)
         status = cli_enter_untrusted(cli, command, NULL);
@@ -389,8 +389,8 @@ int main(int argc, char **argv) {
         cli_print_sink(&cli, &cli.sink);
     diag_sink_finish(&cli.sink);
     arena_finish(&cli.arena);
-    // What a driver does at the end of the process would pull the memory from under its own threads. All that
-    // was written is written: standard output and error are not buffered.
+    // A driver's exit handlers would free memory that its own threads still use. No output is lost: standard
+    // output and error are not buffered.
     if (cli.stuck)
         _exit(status);
     return status;

@@ -1,5 +1,5 @@
-// One `glint render`: a job (render/job) and, around it, what the command line says of files, and what is
-// said. Private to cli.
+// One `glint render`: a job (render/job) and, around it, the command line's files and the messages. Private
+// to cli.
 #ifndef GLINT_CLI_COMMANDS_RENDERING_H
 #define GLINT_CLI_COMMANDS_RENDERING_H
 
@@ -13,12 +13,12 @@ struct cli_opening;
 struct rendering {
     struct cli *cli;
     struct job job;
-    // While the background's pixels are still being decoded, what is found goes into another sink: this is
-    // the session's own.
+    // The session's own sink. While the background's pixels are still being decoded, findings go to another
+    // one.
     struct diag_sink loaded;
     bool is_apart;
-    int settled;                 // the exit code of what the load and the output say
-    struct cli_opening *opening; // of the device, beside the reading of files
+    int settled;                 // the exit code of the load and the output
+    struct cli_opening *opening; // of the device, while files are read
     struct progress progress;
     struct cli_output *outputs; // at least one; their paths are without the camera's name
     uint32_t output_count;
@@ -39,36 +39,37 @@ int render_take_outputs(struct rendering *r);
 // Whether the formats of the outputs hold pictures of this size: CLI_OK, or CLI_USAGE with the mistake in the
 // command line's sink.
 int render_judge_size(struct rendering *r);
-// How the options have a format coded; what they ask of others is left out.
+// How the options want a format coded; options for other formats are left out.
 struct image_coding render_coding(const struct cli_options *options, enum image_format format);
 // The picture as a file of a format, appended to `out`.
 void render_encode(struct rendering *r, enum image_format format, struct strbuf *out);
 // Whether one of them is standard output.
 bool render_uses_stdout(const struct rendering *r);
 // These return an exit code.
-// A smaller picture that was chosen, to the size asked for.
+// Scales a smaller picture that was chosen to the size asked for.
 int render_scale_up(struct rendering *r);
-// Every output of a camera's picture; and says on standard error which files there are.
+// Writes every output of a camera's picture, and lists the files on standard error.
 int render_write_pictures(struct rendering *r, uint32_t camera);
 void render_tell_written(struct rendering *r, uint32_t camera);
 // Ends the progress and reports why there is no picture.
 int render_failed(struct rendering *r, enum shot_status status);
-// The same of any job, with the scene's notes or without.
+// The same for any job, with or without the scene's notes.
 int render_not_drawn(struct cli *cli, const struct job *job, enum shot_status status, bool notes);
 
-// After a camera's picture was written: what its audit found, what --time left out, how long frames took. An
-// exit code: an audit that breaks --max-off is a failure, and fewer samples than --max-error asks for.
+// Reports, after a camera's picture was written: what its audit found, what --time left out, how long frames
+// took. An exit code: it is a failure if the audit breaks --max-off, or if there are fewer samples than
+// --max-error asks for.
 int render_tell_end(const struct rendering *r);
-// The first of that, of any job.
+// Only the audit, for any job.
 int render_tell_audit(const struct cli *cli, const struct job *job);
-// Says that the scene's image.error ended no pixel, and why; nothing where a finding says so.
+// Says that the scene's image.error ended no pixel, and why, unless a finding says so.
 void render_tell_unused_error(const struct rendering *r);
 
 // ---- render_aov.c: --aov. All do nothing without it, and return exit codes.
 
 // The first output that is OpenEXR; NULL: none is.
 const struct cli_output *render_exr_output(const struct rendering *r);
-// Once the scene is known: whether it can be made at all.
+// Once the scene is known: whether the outputs can be made at all.
 int render_judge_aovs(struct rendering *r);
 // Whether the files beside the picture may be written.
 int render_judge_aov_names(struct rendering *r, uint32_t camera);
@@ -80,7 +81,7 @@ int render_write_aovs(struct rendering *r, uint32_t camera);
 
 // Whether the command line asks for less than a picture, or for a file of parts.
 bool render_wants_part(const struct rendering *r);
-// Before and after the scene was read: what part of which picture is rendered. CLI_OK, or CLI_USAGE with the
+// Before and after the scene was read: which part of the picture is rendered. CLI_OK, or CLI_USAGE with the
 // mistake in the command line's sink.
 int render_judge_part(struct rendering *r);
 int render_plan_part(struct rendering *r);
@@ -92,17 +93,17 @@ void render_encode_part(struct rendering *r, struct strbuf *out);
 // Before the scene was read: whether what is asked for can be made in bands, if they are asked for. CLI_OK,
 // or CLI_USAGE with the mistake in the command line's sink.
 int render_judge_bands(struct rendering *r);
-// After render_plan_part: sets job->in_bands, for what is asked for, and for what does not fit memory. As
-// above.
+// After render_plan_part: sets job->in_bands if bands are asked for, or if the picture does not fit in
+// memory. As above.
 int render_plan_bands(struct rendering *r);
 // Whether what --partial writes may be written. An exit code.
 int render_judge_partial(struct rendering *r, uint32_t camera);
-// All bands of a camera's picture, and its files. An exit code: CLI_STOPPED if a signal came.
+// Renders all bands of a camera's picture, and writes its files. An exit code: CLI_STOPPED if a signal came.
 int render_in_bands(struct rendering *r, uint32_t camera);
 // cli/commands/pictures/done.c, --skip-done: whether the outputs can say that they are done; as
 // render_judge_part.
 int render_judge_done(const struct rendering *r);
-// Whether the file at `path` is what an output would be, through the job's camera.
+// Whether the file at `path` equals what an output would be through the job's camera.
 bool render_output_is_done(const struct rendering *r, const struct cli_output *output, const char *path);
 // Finds the cameras whose outputs are all there, says so, and moves `first`
 // past those at the beginning. The session is settled, and the device open.

@@ -1,4 +1,4 @@
-// A study of settings of a loaded scene: what tradeoff reports, and what render's choice is based on.
+// A study of a loaded scene's settings: tradeoff reports it, and render chooses by it.
 //
 // Thread safety: as cli.h.
 #ifndef GLINT_CLI_COMMANDS_STUDY_H
@@ -14,8 +14,8 @@ static inline bool cli_has_study(const struct cli *cli) {
 // Reads --max-error METRIC=X into `options`, and the rest of what the command line says about studies. false:
 // a mistake is in cli->sink.
 bool cli_study_options(struct cli *cli, struct tradeoff_options *options);
-// Studies the camera that the command line names, on its device; `study` is the caller's to finish in any
-// case, and so is *gpu, which is NULL before. Returns an exit code, errors printed.
+// Studies the camera that the command line names, on its device. The caller finishes `study` in any case, and
+// *gpu, which is NULL before. Returns an exit code, errors printed.
 int cli_study(struct cli *cli, struct session *session, const struct tradeoff_options *options,
               struct gpu **gpu, struct tradeoff *study);
 // render: studies the scene, and adds the chosen settings to the command line's --set options. CLI_SCENE with

@@ -2,7 +2,7 @@
 //
 // The scene file is at the top under its own name, what it includes in includes/, meshes with their material
 // files in meshes/, the background in images/; of two files with the same name the second goes to meshes-2/
-// and so on. A mesh by itself is packed with the scene around it, which is called as the mesh is, and ends in
+// and so on. A mesh by itself is packed with the scene around it, which has the mesh's name and ends in
 // .glint.yaml. Paths in scene files are rewritten in place: no other byte of any file is changed. Limits that
 // were raised go into settings for --config (limits.yaml). Before it gets its name, the packed scene is
 // loaded and compared: same meaning, same files. Thread safety: the session's thread.

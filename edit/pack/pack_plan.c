@@ -97,7 +97,7 @@ static str folder_name(struct planner *p, const char *base, int number) {
 
 // ---- targets
 
-// Where a material file must be for the mesh to find it under the name that the mesh uses.
+// The place where the mesh finds a material file under the name that it uses.
 static str library_target(struct planner *p, str mesh_folder, const struct inventory_use *use) {
     struct arena *arena = &p->session->arena;
     str named = arena_copy(arena, use->named);
@@ -122,7 +122,7 @@ static str folder_of(str target) {
     return str_slice(target, 0, target.len - path_base(target).len);
 }
 
-// Whether the images of a material file fit where it looks for them.
+// Whether the images of a material file can be placed where it looks for them.
 static bool images_fit(struct planner *p, str library, const struct inventory_use *of) {
     for (uint32_t i = 0; i < p->plan->inventory->count; i++) {
         const struct inventory_use *use = &p->plan->inventory->items[i];
@@ -229,8 +229,8 @@ static void add_limits(struct planner *p) {
     strbuf_finish(&text);
 }
 
-// The scene around a mesh by itself, which nobody wrote: it is called as the mesh is, and its paths are seen
-// from there.
+// The scene around a mesh by itself, which nobody wrote: it has the mesh's name, and its paths start from the
+// mesh's folder.
 static void add_scene_around(struct planner *p, const struct source *source) {
     const str base = path_base(source->path);
     size_t stem = base.len;
@@ -264,7 +264,7 @@ static void place_all(struct planner *p) {
 
 // ---- scene files
 
-// The way from one file of the package to another. Folders are one level deep.
+// The relative path from one file of the package to another. Folders are one level deep.
 static str way(struct arena *arena, str from, str to) {
     const char *slash = memchr(from.ptr, '/', from.len);
     if (!slash)

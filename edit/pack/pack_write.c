@@ -101,7 +101,7 @@ static void dump(struct session *session, struct strbuf *out) {
     ir_dump(session->scene, out);
 }
 
-// The file that the packed scene reads in place of each one that the scene reads.
+// Whether the packed scene reads a file in place of each one that the scene reads.
 static bool same_files(struct session *session, const struct inventory *after, const struct pack_plan *plan,
                        const char *folder) {
     const struct inventory *before = plan->inventory;
@@ -111,7 +111,7 @@ static bool same_files(struct session *session, const struct inventory *after, c
     for (;; a++, b++) {
         while (a < before->count && before->items[a].role == INVENTORY_SETTINGS)
             a++;
-        // The scene around a mesh that is a scene by itself was not a file before.
+        // The scene around a mesh was not a file before.
         while (b < after->count && (after->items[b].role == INVENTORY_SETTINGS ||
                                     (after->items[b].role == INVENTORY_SCENE && a < before->count &&
                                      before->items[a].role != INVENTORY_SCENE)))
@@ -163,7 +163,7 @@ static bool compare(struct session *session, struct session *packed, const struc
     return same;
 }
 
-// The system's fault, and not the package's. NULL: there is none.
+// A fault of the system, not of the package. NULL: there is none.
 static const struct diag *what_is_unreadable(const struct session *packed) {
     for (uint32_t i = 0; i < packed->sink.count; i++)
         if (packed->sink.items[i].code == DIAG_FILE_UNREADABLE)
@@ -221,7 +221,8 @@ static bool is_taken(const char *path) {
     return look.taken;
 }
 
-// A new folder beside `out`, so that it can be renamed. Its name does not grow with that of `out`.
+// Makes a new folder beside `out`, so that it can be renamed. Its name does not get longer with that of
+// `out`.
 static bool make_folder_beside(const char *out, size_t length, char *folder, struct pack_error *error) {
     while (length > 0 && out[length - 1] != '/')
         length--;

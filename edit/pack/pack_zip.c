@@ -15,15 +15,15 @@
 
 enum {
     CHUNK_BYTES = 1 << 16,
-    MADE_BY_UNIX = 3 << 8 | 20, // so that the permissions below mean something (APPNOTE 4.4.2)
+    MADE_BY_UNIX = 3 << 8 | 20, // gives the permissions below a meaning (APPNOTE 4.4.2)
     NAMES_ARE_UTF8 = 1 << 11,   // APPNOTE 4.4.4, general purpose bit 11
     FILE_MODE = 0100644,        // regular file
     LARGE_BYTES = 0x7fffffff,   // from here on ZIP64
     COMPRESSION_LEVEL = 6,
-    ENTRY_BYTES = 46 + 32, // of an entry in the archive's directory (APPNOTE 4.3.12), and what minizip adds
+    ENTRY_BYTES = 46 + 32, // an entry in the archive's directory (APPNOTE 4.3.12), and what minizip adds
 };
 
-// Where minizip or the system lacked memory, errno says so.
+// If minizip or the system lacked memory, errno says so.
 static void fail(struct pack_error *error, const struct output *output, const char *what, str path) {
     int reason = output->error ? output->error : errno;
     if (reason == ENOMEM)
@@ -60,7 +60,7 @@ static ZPOS64_T tell_output(voidpf opaque, voidpf stream) {
     return output_place(stream);
 }
 
-// minizip goes to places that it has told, from the beginning.
+// minizip seeks to offsets that it got from tell, from the beginning.
 static long seek_output(voidpf opaque, voidpf stream, ZPOS64_T offset, int origin) {
     struct output *output = stream;
     (void)opaque;
@@ -79,8 +79,8 @@ static int error_of(voidpf opaque, voidpf stream) {
     return ((const struct output *)stream)->error;
 }
 
-// minizip does not look at whether it got memory for the header of an entry. What was freed last is given
-// again where as much is asked for.
+// minizip does not check that it got memory for the header of an entry. The block freed here is given out
+// again when as much is asked for.
 static bool has_room(const char *name) {
     void *room = heap_alloc(ENTRY_BYTES + strlen(name));
     free(room);

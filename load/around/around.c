@@ -9,18 +9,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Degrees: the view is turned and lowered by these, and so narrow that the floor, which it looks down on at
-// least by ELEVATION - FOV / 2, is all that is behind the mesh.
+// Degrees that the view is turned and lowered by, and its angle: every ray goes down by at least ELEVATION -
+// FOV / 2, so only the floor is seen behind the mesh.
 #define AZIMUTH   20.0
 #define ELEVATION 15.0
 #define FOV       20.0
 
-#define MARGIN      1.16 // the half picture, as a multiple of what the mesh takes of it
+#define MARGIN      1.16 // half the picture, as a multiple of half the mesh's extent in it
 #define FLOOR       50.0 // half its width, as a multiple of the mesh's largest extent
-#define OCCLUSION   0.4  // how near a body keeps ambient light off, as a share of the extent
-#define EXTENT_MOST 1e15 // so that all of it is within what the language has numbers for
-#define SMOOTH      0.9  // length of the mean of the normals around a vertex that looks smooth
-#define SMOOTH_PART 0.9  // of the vertices that must
+#define OCCLUSION   0.4  // distance within which a body blocks ambient light, as a share of the extent
+#define EXTENT_MOST 1e15 // keeps all numbers of the scene within the language's ranges
+#define SMOOTH      0.9  // length of the mean normal above which a vertex looks smooth
+#define SMOOTH_PART 0.9  // share of the vertices that must look so
 enum {
     VERTICES_LOOKED_AT = 4096,
 };
@@ -44,7 +44,7 @@ static void mark(struct ir_head *head, const struct schema_element *schema, cons
 
 // ---- numbers
 
-// Powers of ten are exact here, so that the result is the double nearest to its few digits.
+// Powers of ten are exact here, so the result is the double nearest to its few digits.
 static double rounded(double value, int exponent) {
     const double power = pow(10, abs(exponent));
     return exponent < 0 ? round(value * power) / power : round(value / power) * power;
@@ -121,7 +121,7 @@ static vec3 normal_of(const struct mesh *mesh, const uint32_t *corners) {
         vec3_cross(vec3_sub(mesh->positions[corners[1]], a), vec3_sub(mesh->positions[corners[2]], a)));
 }
 
-// The normals of the faces around every so many vertices.
+// Samples every `step`-th vertex: the normals of the faces around it.
 static bool looks_smooth(const struct mesh *mesh, struct arena *arena) {
     if (mesh->normal_count)
         return true;
@@ -199,7 +199,7 @@ static void add_camera(const struct frame *f, struct ir_scene *scene, struct are
     mark(&scene->head, &SCHEMA_SCENE, "camera");
 }
 
-// Just below the mesh: what lies in its plane would show neither well.
+// Just below the mesh: where two surfaces share a plane, neither shows well.
 static void add_floor(const struct frame *f, struct ir_scene *scene, struct arena *arena) {
     struct ir_rectangle *floor_of = ARENA_PUSH(arena, &scene->rectangles);
     schema_init(&SCHEMA_RECTANGLE, floor_of);

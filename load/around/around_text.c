@@ -12,7 +12,7 @@ static void load(struct asset_store *store, const struct assets_input *given, st
     struct assets_input input = *given;
     struct ir_scene *scene = ARENA_NEW(arena, struct ir_scene);
     struct ir_origin *origin = ARENA_NEW(arena, struct ir_origin);
-    struct diag_sink sink = {0}; // keeps nothing, so that it only counts
+    struct diag_sink sink = {0}; // keeps nothing, only counts
     const uint32_t logged = input.files->log.count;
     schema_init(&SCHEMA_SCENE, scene);
     ir_origin_init(origin, arena);

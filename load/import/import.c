@@ -28,9 +28,9 @@ struct importing {
     struct str_map bodies, cameras; // names that are taken; bodies and lights share theirs
     struct str_map materials;
     str *material_names;  // by material of the file; empty: not used so far
-    struct str_map parts; // names of meshes: how many have them
+    struct str_map parts; // names of meshes: how many meshes have each
     double dimming;
-    struct ir_material_ref clay; // of a file without materials
+    struct ir_material_ref clay; // the material for a file without materials
 };
 
 static void write(struct ir_head *head, const struct schema_element *schema, const char *row) {
@@ -107,7 +107,7 @@ static void write_vector(struct ir_model *model, const char *row, vec3 *field, v
         write(&model->head, &SCHEMA_MODEL, row);
 }
 
-// A mesh by its name where only it has that name, and no number could be meant by it.
+// The mesh's name if no other mesh has it and it does not look like "mesh 3" or "node 3"; else its number.
 static str part_name(struct importing *im, uint32_t mesh) {
     const str name = im->gltf->meshes.items[mesh].name;
     const bool is_number = str_starts_with(name, STR("mesh ")) || str_starts_with(name, STR("node "));
@@ -223,7 +223,7 @@ static void put_light(struct importing *im, const struct gltf_node *node) {
 
 // ---- how strong lights are
 
-// A point amid the bodies, and how far they reach from it, by the places of their nodes.
+// How far the bodies reach from *middle, a point amid them, judged by the positions of their nodes.
 static double reach_of(const struct gltf *gltf, vec3 *middle) {
     vec3 lower = {0, 0, 0}, upper = {0, 0, 0};
     bool any = false;
@@ -239,8 +239,8 @@ static double reach_of(const struct gltf *gltf, vec3 *middle) {
     return vec3_length(vec3_sub(upper, lower)) / 2;
 }
 
-// By what lights are divided besides: 683 where the strongest would make white surfaces more than 30 times
-// too bright, as in files that state watts as lumens (Blender's standard units), else 1.
+// A further divisor of all lights: 683 if the strongest would make white surfaces more than 30 times too
+// bright, as in files that state watts as lumens (Blender's standard units), else 1.
 static double import_dimming(struct gltf_document *document) {
     const struct gltf *gltf = &document->gltf;
     vec3 middle;
@@ -301,7 +301,7 @@ static void put_head(struct importing *im) {
         out->image.samples = SAMPLES_ROUGH;
         write(&out->image.head, &SCHEMA_IMAGE, "samples");
     }
-    // Metal and glass are nothing without surroundings, and a glTF file has none.
+    // Metal and glass show nothing without surroundings, and a glTF file has none.
     out->background.color = (struct ir_color){.r = 0.35, .g = 0.4, .b = 0.45};
     write(&out->head, &SCHEMA_SCENE, "background");
     write(&out->background.head, &SCHEMA_BACKGROUND, "color");
@@ -318,7 +318,7 @@ unsigned import_lacks(const struct gltf_document *document) {
     return lacks;
 }
 
-// Names that are taken by what was taken.
+// Reserves the names of what was taken from the scene around the mesh.
 static void keep_names(struct importing *im) {
     const struct ir_scene *out = im->out;
     for (uint32_t i = 0; i < out->cameras.count; i++)
@@ -331,7 +331,8 @@ static void keep_names(struct importing *im) {
         import_name(&im->materials, out->materials.items[i].name, "material");
 }
 
-// A floor and a backdrop only where neither camera nor lights say that there is a scene already.
+// A floor and a backdrop are added only if the file has neither camera nor lights: with them it is a scene
+// already.
 static void put_around(struct importing *im, unsigned lacks) {
     const struct ir_scene *around = im->options->around;
     struct ir_scene *out = im->out;

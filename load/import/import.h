@@ -1,14 +1,14 @@
 // A glTF file as a scene of the language: models for its nodes, cameras, lights and, where they are asked
 // for, materials with their images.
 //
-// What one node shows is one model, and nodes that show the same mesh are models of the same part of the
-// file, which glint keeps once. Where a node's matrix is not a scale, rotation and move, its model is the
-// node where the file places it. docs/gltf.md says what becomes of what.
+// Each node that shows a mesh becomes one model. Nodes with the same mesh are models of the same part of the
+// file, which glint keeps once. If a node's matrix is not a scale, rotation and translation, its model refers
+// to the node as the file places it. docs/gltf.md says what becomes of what.
 //
 // Input: an open document without errors. Output: a scene whose rows are marked as written, for
 // grammar/print/. What has no counterpart is counted in the document's losses. Ownership: the arena's, which
-// must be guarded as the document's is. Units: lights are in the language's, without any: a light of candela
-// or lux is divided by pi, which is what a white surface makes of it. Thread safety: one thread.
+// must be guarded as the document's is. Units: lights of the language have no unit; candela and lux are
+// divided by pi, as a white surface does. Thread safety: one thread.
 #ifndef GLINT_LOAD_IMPORT_IMPORT_H
 #define GLINT_LOAD_IMPORT_IMPORT_H
 
@@ -16,7 +16,7 @@
 
 struct ir_scene;
 
-// What a file has no counterpart of is taken from the scene that a mesh by itself is shown in (load/around/).
+// What a file lacks is taken from the scene around a single mesh (load/around/).
 enum import_lack {
     IMPORT_LACKS_CAMERA = 1,
     IMPORT_LACKS_LIGHT = 2,
@@ -29,8 +29,7 @@ struct import_options {
         *images; // by image of the file, as the scene is to name it; NULL: materials are left in the file
 };
 
-// Opens the file at a path; what is wrong is reported where the input's sink is. NULL: it cannot be read, or
-// no memory.
+// Opens the file at a path; errors go to the input's sink. NULL: it cannot be read, or no memory.
 struct gltf_document *import_open(const struct assets_input *input, str path);
 unsigned import_lacks(const struct gltf_document *document);
 void import_gltf(struct gltf_document *document, const struct import_options *options, struct arena *arena,

@@ -25,7 +25,7 @@ static str mended(struct arena *arena, str own, const char *kind) {
 str import_name(struct str_map *taken, str own, const char *kind) {
     struct arena *arena = taken->arena;
     const str wanted = mended(arena, own, kind);
-    // The value of a name is how often it was asked for, so that a thousand nodes of one name are not a
+    // The value of a name is how often it was asked for, so a thousand nodes of one name do not take a
     // million tries.
     uint32_t number = (*str_map_at(taken, wanted))++;
     for (str name = wanted;; number++) {

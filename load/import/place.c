@@ -19,7 +19,7 @@ static double tidy_angle(double degrees) {
     return round(degrees * 1e7) / 1e7 + 0;
 }
 
-// Of a rotation matrix (Slabaugh 1999).
+// Angles of a rotation matrix (Slabaugh 1999).
 static vec3 angles_of(mat3 r) {
     const double across = hypot(r.m[0][0], r.m[1][0]);
     double x, z = 0;

@@ -12,10 +12,10 @@ struct import_place {
 
 // false: the matrix also shears, or makes the mesh flat.
 bool import_place_of(affine3 map, struct import_place *out);
-// The angles of Rz·Ry·Rx, in degrees, of a matrix with the directions of y and z as here; both need not be
-// unit, and y only be on the side that is up.
+// The angles of Rz·Ry·Rx, in degrees, of the rotation whose y and z axes have these directions. Neither must
+// be a unit vector, and y only has to be on the upper side.
 vec3 import_rotation(vec3 y, vec3 z);
-// Without what rounding leaves of a number, so that 0.8 is not 0.8000000000000002.
+// Removes the rounding error of a number: 0.8000000000000002 becomes 0.8.
 double import_tidy(double value);
 
 #endif

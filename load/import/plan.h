@@ -1,7 +1,7 @@
 // What `glint import` writes: a scene, and beside it the images that the glTF file holds.
 //
-// Errors: false where the document has errors, told by its file. Ownership: all of it is in the document's
-// arena, and lives as long. Thread safety: one thread.
+// Errors: false if the document has errors, which its file has reported. Ownership: all of it is in the
+// document's arena, and lives as long. Thread safety: one thread.
 #ifndef GLINT_LOAD_IMPORT_PLAN_H
 #define GLINT_LOAD_IMPORT_PLAN_H
 
@@ -28,7 +28,8 @@ struct import_plan {
     str mesh; // as the scene names it
 };
 
-// `out`: where the scene will be; empty: nowhere, its materials are left in the file.
+// `out`: the path that the scene will have; empty: it is not written to a file, and materials stay in the
+// glTF file.
 // `around`: import_around.
 bool import_plan_make(struct gltf_document *document, const struct ir_scene *around, str out,
                       struct import_plan *plan);

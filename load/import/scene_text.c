@@ -24,7 +24,7 @@ struct making {
     struct strbuf *text;
 };
 
-// Only of what is not read again with the mesh.
+// Drops the losses that reading the mesh reports anyway.
 static void keep_light_losses(struct gltf *gltf) {
     for (int i = 0; i < GLTF_LOSSES; i++)
         if (i != GLTF_LOSS_SPOT)
@@ -46,7 +46,7 @@ static void find_around(void *context) {
     m->around = import_around(m->source, m->document);
 }
 
-// The file is opened once for all that is asked of it, and closed also where memory ends.
+// Opens the file once for everything, and closes it also if memory runs out.
 static bool write_scene(const struct import_source *source, const struct assets_input *quiet, str path,
                         struct strbuf *text) {
     struct making making = {
@@ -60,7 +60,7 @@ static bool write_scene(const struct import_source *source, const struct assets_
     }
     if (making.document->file.errors == 0)
         gltf_document_guarded(making.document, NULL, make, &making);
-    // A scene that shows no mesh has nothing to say but that.
+    // If the scene shows no mesh, that is all there is to report.
     const bool good = making.document->file.errors == 0 && making.scene.models.count > 0 && !text->failed;
     gltf_documents_finish(making.document);
     return good;

@@ -128,7 +128,7 @@ bool baseline_read(struct baseline *baseline, const char *path, struct arena *ar
 
 // ---- what no longer occurs
 
-// Whether the scene was removed; names that hold what had to be escaped are taken to be there.
+// Whether the scene was removed. Names with escaped characters are assumed to exist.
 static bool is_gone(const struct baseline *b, struct arena *arena, str via) {
     if (memchr(via.ptr, '\\', via.len))
         return false;
@@ -202,7 +202,7 @@ struct merging {
     } all;
 };
 
-// A finding in a file that several scenes read is one entry, as each of them has it.
+// A finding in a file that several scenes read is one entry, because each of them has it.
 static void merge(void *context) {
     struct merging *m = context;
     struct str_map keys;

@@ -1,10 +1,10 @@
-// A baseline: the findings of a check that are known, so that only new ones are reported.
+// A baseline: the known findings of a check, so only new ones are reported.
 //
-// A finding is known again by its file, its code, the words of its message and the text of its line: numbers
-// in the message do not count, nor does the number of the line, so that what is written above it does not
-// make it new. Of findings that are equal in all of these the baseline holds how many there are in one scene.
-// It holds errors and warnings in files, but not those of settings and options, nor that memory ran out, that
-// a file cannot be read, or that an include is missing or refused.
+// A finding is recognised by its file, its code, the words of its message and the text of its line. Numbers
+// in the message and the line number do not count, so text added above does not make it new. For findings
+// equal in all of these the baseline holds their number in one scene. It holds errors and warnings in files,
+// but not those of settings and options, nor that memory ran out, that a file cannot be read, or that an
+// include is missing or refused.
 //
 // The file is text, sorted, one entry a line: path (relative to the baseline's folder), code, number,
 // message, line and, if the finding is not in the scene itself, the scene that reads the file; separated by
@@ -39,7 +39,7 @@ struct baseline {
     } entries;
     struct str_map keys;    // 1 + index of the entry
     struct str_map scenes;  // each `via`: 1 + index in `checked`
-    _Atomic uint32_t *used; // by entry: how many of it a scene had
+    _Atomic uint32_t *used; // by entry: how many a scene had
     _Atomic bool *checked;  // scenes whose findings are all known
 };
 
@@ -66,13 +66,13 @@ void baseline_put_stale(const struct baseline *baseline, struct strbuf *out);
 
 void baseline_found_init(struct baseline_found *found, str folder);
 void baseline_found_finish(struct baseline_found *found);
-// The text of the baseline of what was found in all scenes; returns how many findings that are. `arena`: for
-// work.
+// Writes the baseline of what was found in all scenes; returns the number of findings. `arena`: for temporary
+// data.
 uint32_t baseline_put(const struct baseline_found *const *found, uint32_t count, struct arena *arena,
                       struct strbuf *out);
 
-// Takes from a session's findings (check_scene) those that `known` holds, or all that a baseline can hold, to
-// `found`, if that is not NULL. Returns how many. The counts and what is left in the sink follow.
+// Removes from a session's findings (check_scene) those that `known` holds; if `found` is not NULL, moves all
+// that a baseline can hold to it instead. Returns how many. Updates the sink and its counts.
 uint32_t baseline_take(struct session *session, const struct baseline *known, struct baseline_found *found);
 
 #endif

@@ -9,9 +9,9 @@ enum {
     LINE_BYTES_MAX = 400,
 };
 
-// Text on one line, in a field: tabs, line ends, controls and what is not UTF-8 as backslash sequences.
-// Numbers, of lines and of entries of lists, change where the finding does not: without `numbers` each is
-// written '#'.
+// Text on one line, in a field: tabs, line ends, controls and what is not UTF-8 as backslash sequences. Line
+// numbers and list indices may change while the finding stays the same: without `numbers` each number is
+// written as '#'.
 static void put_field(struct strbuf *out, str text, bool numbers) {
     for (size_t at = 0; at < text.len;) {
         size_t size = utf8_sequence_length(text, at);
@@ -81,8 +81,8 @@ static str key_of(struct taking *t, const struct diag *item) {
     return arena_copy(&t->session->arena, strbuf_view(&t->text));
 }
 
-// That the system failed is not a mistake in the scene, and options are not in a file. Where an include
-// cannot be read, nobody knows what is wrong in it.
+// A system failure is not a mistake in the scene, and options are not in a file. If an include cannot be
+// read, its mistakes are unknown.
 static bool can_be_known(const struct taking *t, const struct diag *item) {
     const struct source_set *sources = &t->session->sources;
     const span unread = t->session->unread;

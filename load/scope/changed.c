@@ -23,9 +23,9 @@ void changed_add(struct changed *changed, str path) {
         *str_map_at(&changed->paths, canonical) = 1;
 }
 
-// Whether a finding may have kept glint from knowing a file of the scene. Errors do, except those of
-// references and rules, which come when every file has been read, and those of values that cannot be a path.
-// A material file that is missing is only a warning.
+// Whether a finding may have hidden a file of the scene from glint. Errors may, except those of references
+// and rules, found after every file has been read, and those of values that cannot be a path. A material file
+// that is missing is only a warning.
 static bool hides_files(const struct diag *item) {
     const char stage = diag_info(item->code)->code[1];
     switch (item->code) {
@@ -72,7 +72,7 @@ static bool is_changed(const struct changed *changed, const struct inventory_use
     return false;
 }
 
-// Settings that are gone applied to what is below their folder.
+// Removed settings applied to everything below their folder.
 static bool lost_settings(const struct changed *changed, str scene) {
     str rest;
     for (uint32_t i = 0; i < changed->gone.count; i++)

@@ -19,21 +19,21 @@ struct changed {
     struct str_map paths;         // of files that are there, links resolved
     struct changed_list folders;  // links and submodules: all below them changed
     struct changed_list gone;     // absolute, of files that are not there any more
-    struct changed_list named;    // files that operands name and that are there, as they name them
+    struct changed_list named;    // existing files that operands name, as they name them
     struct changed_list searched; // the folders to look for scenes in, as a user would write them
     bool names_folders;           // operands name these; else it is the root
     str why;                      // where changed_find failed
-    int operand;                  // the one that it is about, from 0; -1: none
+    int operand;                  // index of the operand that `why` is about; -1: none
 };
 
 void changed_init(struct changed *changed, struct arena *arena);
 // Adds a file that changed, was added, or is no longer there.
 void changed_add(struct changed *changed, str path);
-// What the operands of --changed ask for: folders are searched, files changed, and so did all that git says
-// differs from a revision, if one is named or no file is (then from HEAD). The first operand is a revision if
-// there is no file of its name. Where no folder is named, the repository is searched, or, if git is not
-// asked, what is below the root that a scene in the current folder has. false: git does not say what
-// changed (changed->why, changed->operand).
+// Applies the operands of --changed. Folders are searched. Files count as changed, and so does all that git
+// says differs from a revision, if one is named, or from HEAD if no file is named either. The first operand
+// is a revision if no file has its name. If no folder is named, the repository is searched or, if git is not
+// asked, everything below the root of a scene in the current folder. false: git cannot tell what changed
+// (changed->why, changed->operand).
 bool changed_find(struct changed *changed, char *const *operands, int count);
 // Whether a file is one of them.
 bool changed_holds(const struct changed *changed, str canonical);

@@ -27,7 +27,7 @@ static str root_folder(struct changed *changed, str top) {
 
 static bool ask_git(struct changed *changed, const char *revision, str *top) {
     struct git_changes changes;
-    if (revision[0] == '-') { // git would take it for one of its own
+    if (revision[0] == '-') { // git would take it for an option
         changed->why =
             arena_format(changed->arena, "'%s' is not a revision: it begins as an option does", revision);
         return false;

@@ -32,7 +32,7 @@ struct scene_names {
         struct scene_other *items;
         uint32_t count, capacity;
     } others;             // that begin as scenes do
-    struct str_map known; // 1 + index in `others`, of a path with its links resolved
+    struct str_map known; // by path with links resolved: 1 + index in `others`
     _Atomic bool *read;   // by number in `others`: a scene reads it
     str unreadable;       // what FILE_UNREADABLE is about
 };

@@ -48,7 +48,7 @@ static void did_you_mean(const struct binder *b, tree_index node, const struct n
     diag_fix(b->input->sink, false, tree_span(b->tree, node), best);
 }
 
-// There is no such key in the table: reports what may be meant, else what there is.
+// Reports a key that the table does not have, with the one that may be meant, else with all there are.
 static void unknown_key(const struct binder *b, const struct key_table *table, diag_code code,
                         tree_index node, const struct nearest *search, str otherwise) {
     if (key_report_unknown(table, b->input->sink, code, tree_span(b->tree, node), shown(b, node), search))
@@ -62,7 +62,7 @@ static void offer_words(struct nearest *search, const char *const *words) {
         nearest_offer(search, str_from(*words));
 }
 
-// A code that is unknown or that no policy changes; false: it was reported.
+// false: the code is unknown, or no policy changes it; that was reported.
 static bool accept_codes(const struct binder *b, tree_index node, enum diag_policy_status status) {
     if (status == DIAG_POLICY_UNKNOWN_CODE) {
         bad_value(b, node, "there is no code ", "");
@@ -144,7 +144,7 @@ static void take_fail_on(struct binder *b, tree_index key, tree_index value) {
         diag_help(b->input->sink, "fail_on: warning makes warnings fail too");
 }
 
-// Whether the limit would be raised by who may not do that. What the runner has set counts anyway.
+// Whether the file would raise a limit that it may not raise. A limit set by the runner overrides it anyway.
 static bool is_raised(const struct binder *b, enum limit which, uint64_t value) {
     const struct limits *runner = b->input->runner;
     return runner && !(runner->given >> which & 1) && value > limit_info(which)->standard;
@@ -282,7 +282,7 @@ void config_read(const struct config_input *input, uint32_t source, str path, st
         arena_raise(input->arena, fault);
 }
 
-// What was read, or why it was not.
+// Takes what was read, or reports why it was not read.
 static void take_file(const struct config_input *input, enum file_status status, str text, str path,
                       str shown, struct config *config) {
     *config = (struct config){.path = path, .limits = limits_default()};
@@ -305,7 +305,7 @@ void config_read_file(const struct config_input *input, str path, str shown, str
     take_file(input, status, text, path, shown, config);
 }
 
-// Nobody names this file: a link to another place must not make what is there be read and reported.
+// Nobody named this file, so a link must not make glint read and report a file elsewhere.
 void config_load(const struct config_input *input, str scene_path, struct config *config) {
     str text = STR("");
     *config = (struct config){.path = files_find_config(input->files, scene_path)};

@@ -9,8 +9,8 @@
 //     limits: {mesh-bytes: 1000000}
 //
 // An empty file only marks its folder as the root. A file that lies beside the scenes may only lower limits:
-// whoever wrote the scenes may have written it. One that the runner names may raise them. What is wrong in it
-// is reported at its place, and the rest counts. Ownership: everything is in the given arena, which must be
+// whoever wrote the scenes may have written it. One that the runner names may raise them. Mistakes are
+// reported at their place, and the rest is used. Ownership: everything is in the given arena, which must be
 // guarded. Thread safety: one call belongs to one thread.
 #ifndef GLINT_LOAD_SETTINGS_CONFIG_H
 #define GLINT_LOAD_SETTINGS_CONFIG_H
@@ -36,14 +36,14 @@ struct config_input {
     struct diag_sink *sink;
     struct arena *arena;
     const struct limits
-        *runner; // the limits that whoever runs glint has set; NULL: the file is that one's own
+        *runner; // the limits that whoever runs glint has set; NULL: the file is the runner's own
 };
 
 // Takes the settings from a source that is in the set; `path` is absolute, for the folders in it.
 void config_read(const struct config_input *input, uint32_t source, str path, struct config *config);
-// Reads those at `path`, absolute or not, which diagnostics call `shown`.
+// Reads the settings at `path`, absolute or not; diagnostics call the file `shown`.
 void config_read_file(const struct config_input *input, str path, str shown, struct config *config);
-// Finds and reads it; a zeroed config if there is none.
+// Finds and reads the configuration of a scene; a zeroed config if there is none.
 void config_load(const struct config_input *input, str scene_path, struct config *config);
 
 #endif

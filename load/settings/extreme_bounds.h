@@ -5,8 +5,8 @@
 //     move:                                      # an axis
 //       - {from: 0, to: 1.0e+6, off: 0.0005}     # for values from .. to; metrics and the most they may be
 //
-// What is wrong is reported at its place, E805 and E806, and the rest counts. Ownership: the arena's. Thread
-// safety: one call belongs to one thread.
+// Mistakes are reported at their place, as E805 and E806, and the rest is used. Ownership: the arena's.
+// Thread safety: one call belongs to one thread.
 #ifndef GLINT_LOAD_SETTINGS_EXTREME_BOUNDS_H
 #define GLINT_LOAD_SETTINGS_EXTREME_BOUNDS_H
 

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-// From this depth on all is on one line.
+// From this depth on everything is on one line.
 enum {
     FLAT_DEPTH = 4
 };
@@ -41,7 +41,7 @@ static void put_range(struct json_writer *json, uint64_t least, uint64_t greates
 
 static void put_lines(struct json_writer *json, const struct key_table *table);
 
-// The same of the file of `glint test`.
+// The same, for the file of `glint test`.
 static void put_test_value(struct json_writer *json, const struct key_row *row) {
     switch (row->value) {
     case KEY_SIZE:
@@ -80,7 +80,7 @@ static void put_test_value(struct json_writer *json, const struct key_row *row) 
     }
 }
 
-// What one value must be; of a map, what its pairs must be.
+// What one value must be; for a map, what its pairs must be.
 static void put_value(struct json_writer *json, const struct key_row *row) {
     const struct limit_info *messages = limit_info(LIMIT_MESSAGES);
     switch (row->value) {

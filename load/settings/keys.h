@@ -24,7 +24,7 @@ enum key_value {
     KEY_CODE_SEVERITY, // of a map: from codes to severities
     KEY_FAIL_WORD,
     KEY_LIMIT,        // of a map: from limits to numbers
-    KEY_MAX_MESSAGES, // that limit
+    KEY_MAX_MESSAGES, // the limit on messages
     KEY_WHOLE_NUMBER, // from `least` to `greatest`
     KEY_AXIS_BOUNDS,  // of a list: the bounds of an axis
     KEY_FROM_TO,      // a number from `least`, where a bound begins or ends
@@ -38,7 +38,7 @@ enum key_value {
     KEY_ASSIGNMENT,   // PATH=VALUE
     KEY_TEST_BOUNDS,  // a map of TEST_BOUND_KEYS
     KEY_TEST_PICTURE, // of a map: from pictures to TEST_PICTURE_KEYS
-    KEY_METRIC,       // a number, `least` to `greatest`: what the metric `offset` may be
+    KEY_METRIC,       // a number from `least` to `greatest`: the most that the metric `offset` may be
     KEY_THRESHOLD,    // likewise, of a share
     KEY_PIXELS,       // likewise, how many
 };
@@ -47,7 +47,7 @@ struct key_row {
     const char *name;
     enum key_shape shape;
     enum key_value value;
-    const char *form; // for "'only' takes ..."; NULL: key_form makes it of the range
+    const char *form; // for "'only' takes ..."; NULL: key_form makes it from the range
     const char *example;
     double least, greatest; // of numbers
     uint32_t axes;          // KEY_AXIS_BOUNDS: bit 1 << axis
@@ -63,7 +63,7 @@ struct key_table {
 
 extern const struct key_table SETTING_KEYS; // of .glintrc.yaml
 extern const struct key_table
-    LIMIT_KEYS; // of it too, in the order of enum limit: from the least to the default
+    LIMIT_KEYS; // of its limits, in the order of enum limit; each from its least value to its default
 extern const struct key_table AXIS_KEYS;         // of a file of bounds
 extern const struct key_table BOUND_KEYS;        // of one bound
 extern const struct key_table TEST_KEYS;         // of glint-test.yaml
@@ -77,7 +77,7 @@ const char *key_form(const struct key_row *row, struct arena *arena);
 const struct key_row *key_find(const struct key_table *table, str name, struct nearest *search);
 // "a, b and c", in the arena, whose guard the caller sets.
 str key_list(const struct key_table *table, struct arena *arena);
-// Reports that there is no key of this name, and the one that may be meant; false: no other is near.
+// Reports an unknown key, with the one that may be meant; false: no name is near.
 bool key_report_unknown(const struct key_table *table, struct diag_sink *sink, diag_code code, span at,
                         str name, const struct nearest *search);
 

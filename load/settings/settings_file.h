@@ -1,7 +1,7 @@
 // The small YAML files beside scenes: each is a map of settings, bounds or tests.
 //
-// Their reader is the one of scenes; what it says of a file that is not a map, and of an empty one, is about
-// scenes, and is replaced here. Ownership: the arena's. Thread safety: one call belongs to one thread.
+// They share the reader of scenes. Its messages about an empty file, or one that is not a map, speak of
+// scenes and are replaced here. Ownership: the arena's. Thread safety: one call belongs to one thread.
 #ifndef GLINT_LOAD_SETTINGS_SETTINGS_FILE_H
 #define GLINT_LOAD_SETTINGS_SETTINGS_FILE_H
 

@@ -109,7 +109,7 @@ static void take_bounds(struct binder *b, const struct key_row *row, tree_index 
         take_bound(b, key, out);
 }
 
-// What all pictures and one picture may have. false: it is not one of these.
+// Takes a setting that both all pictures and one picture may have. false: it is not such a setting.
 static bool take_setting(struct binder *b, const struct key_row *row, tree_index value,
                          struct test_settings *out) {
     switch (row->value) {

@@ -8,8 +8,8 @@
 //     tests:                           # pictures with settings of their own
 //       hall-side.png: {scene: hall.glint.yaml, camera: side, set: ["materials.wall.albedo[0]=0.5"]}
 //
-// What is wrong is reported at its place, E805 and E806, and the rest counts. Ownership: the arena's. Thread
-// safety: one call belongs to one thread.
+// Mistakes are reported at their place, as E805 and E806, and the rest is used. Ownership: the arena's.
+// Thread safety: one call belongs to one thread.
 #ifndef GLINT_LOAD_SETTINGS_TEST_FILE_H
 #define GLINT_LOAD_SETTINGS_TEST_FILE_H
 
@@ -18,8 +18,8 @@
 
 #define TEST_FILE_NAME "glint-test.yaml"
 
-// Without a file: as displayed, at most this share of the pixels off by more than the threshold in a channel,
-// and this mean of all channels (docs/accuracy.md, "Other devices").
+// Bounds without a file, for displayed values: at most this share of the pixels off by more than the
+// threshold in a channel, and at most this mean over all channels (docs/accuracy.md, "Other devices").
 #define TEST_THRESHOLD (2.0 / 255)
 #define TEST_SHARE     0.005
 #define TEST_MAE       (0.1 / 255)
@@ -29,7 +29,7 @@ struct test_list {
     uint32_t count, capacity;
 };
 
-// Of all pictures, or of one. What is not said is empty, zero or NULL.
+// Settings of all pictures, or of one. What is not given is empty, zero or NULL.
 struct test_settings {
     str camera, device;
     span camera_at, device_at;
@@ -57,9 +57,9 @@ struct test_file {
     } entries;
 };
 
-// What holds where there is no file.
+// The settings that hold without a file.
 void test_file_init(struct test_file *file);
-// Reads a source that is in the set over it. false: no memory.
+// Reads a source that is in the set; its settings replace those in `file`. false: no memory.
 bool test_file_read(const struct reader_context *input, uint32_t source, struct test_file *out);
 // `own` over `all`: a bound replaces that of the same metric, and assignments come after those of all.
 struct test_settings test_settings_join(const struct test_settings *all, const struct test_settings *own,

@@ -1,11 +1,11 @@
-// What else than its colour is known of each pixel, as planes of numbers: the one table of these outputs, and
+// What is known of each pixel besides its colour, as planes of numbers: the one table of these outputs, and
 // how they are made from first hits. docs/aov.md says what each holds.
 //
 // Input: hits of a picture of one sample, by the device or by the reference, and the view that they were seen
 // through. Output: floats, or whole numbers where the table says so, rows from the top, the channels of a
-// pixel side by side. Lengths are scene units, directions and places those of the scene. Errors: false where
-// memory ends. Ownership: aov_finish frees the planes, and accepts zeroed ones. Thread safety: plain data;
-// filling uses all processors.
+// pixel side by side. Lengths are scene units, directions and places those of the scene. Errors: false if
+// there is no memory. Ownership: aov_finish frees the planes, and accepts zeroed ones. Thread safety: plain
+// data; filling uses all processors.
 #ifndef GLINT_RENDER_AOV_AOV_H
 #define GLINT_RENDER_AOV_AOV_H
 
@@ -14,7 +14,7 @@
 #include "scene/view.h"
 
 // name, channels (as OpenEXR calls them), whether they are whole numbers, whether they are made from first
-// hits. The last one is apart, so that lists of names have no separator after it.
+// hits. The last one is separate, so lists of names have no separator after it.
 #define AOV_TABLE_BUT_LAST(X)                                                                                \
     X(DEPTH, "depth", "Z", false, true)                                                                      \
     X(NORMAL, "normal", "XYZ", false, true)                                                                  \
@@ -66,14 +66,15 @@ struct aov_planes {
 // Zeros. false: no memory.
 bool aov_init(struct aov_planes *planes, uint32_t width, uint32_t height, uint32_t wanted);
 void aov_finish(struct aov_planes *planes);
-// All that are made from hits, of which there is one a pixel.
+// Fills all planes that are made from hits: one hit per pixel.
 void aov_fill(struct aov_planes *planes, const struct scene *scene, const struct view_camera *camera,
               const struct hit_pixel *hits);
-// The others: of each pixel, or NULL where nothing is known of its error, and where all have `all` samples.
+// Fills the others, from arrays with a number per pixel. `error` NULL: unknown; `samples` NULL: all pixels
+// have `all`.
 void aov_fill_samples(struct aov_planes *planes, const float *error, const uint32_t *samples, uint32_t all);
 
-// What a pixel of one sample costs, as far as the first surface: the camera's ray and those that the surface
-// sends, to lights, mirrored and refracted.
+// What one sample costs up to the first surface: the camera's ray, and the rays that the surface sends to
+// lights, mirrored and refracted.
 uint32_t aov_cost(const struct hit_pixel *hit);
 // The material that is seen, an index into scene.materials; HIT_NONE: the background.
 uint32_t aov_material(const struct scene *scene, const struct hit_pixel *hit);

@@ -10,7 +10,7 @@
 #include <string.h>
 
 enum {
-    COVERAGE_SAMPLES_MOST = 256, // of a pixel, that its coverage is made of
+    COVERAGE_SAMPLES_MOST = 256, // samples per pixel that its coverage is made from
     RANKS_A_LAYER = 2,
     LAYER_FLOATS = 2 * RANKS_A_LAYER,
     ROWS_A_PIECE = 4,

@@ -1,4 +1,4 @@
-// What else than its colour is known of a picture's pixels, made by the tracer that made the picture: planes
+// What is known of a picture's pixels besides colour, made by the tracer that made the picture: planes
 // (aov.h), names (names.h), and, for OpenEXR, layers of the picture with mattes (matte.h) among them.
 //
 // Errors: enum shot_status; SHOT_NO_MEMORY leaves nothing in the sink. Ownership: layers_finish frees all but
@@ -22,8 +22,8 @@ enum {
 
 struct layers_wish {
     struct shot *shot;                      // that made the picture; NULL: the reference
-    struct reference_shot *reference;       // did, by this
-    const struct render_estimate *estimate; // of where pixels ended; NULL: all have the session's samples
+    struct reference_shot *reference;       // that made it, if `shot` is NULL
+    const struct render_estimate *estimate; // where pixels ended; NULL: all have the session's samples
     uint32_t width, height;
     uint32_t wanted; // bits of enum aov
     bool in_picture; // `layers` are made, with mattes
@@ -46,7 +46,7 @@ struct layers {
 bool layers_have(const struct layers *layers, enum aov aov);
 enum shot_status layers_make(struct layers *layers, struct session *session, const struct layers_wish *wish,
                              const struct render_progress *progress, struct arena *arena);
-// One of them as a picture of three channels, which is the caller's. false: no memory.
+// One plane as a picture of three channels, owned by the caller. false: no memory.
 bool layers_plane(const struct layers *layers, enum aov aov, struct image *image);
 void layers_finish(struct layers *layers);
 

@@ -37,7 +37,7 @@ uint32_t matte_hash(str name) {
             block = 0;
         }
     }
-    hash ^= scrambled(block); // 0 of no bytes
+    hash ^= scrambled(block); // 0 if no bytes are left
     hash ^= (uint32_t)name.len;
     hash = (hash ^ hash >> 16) * UINT32_C(0x85ebca6b);
     hash = (hash ^ hash >> 13) * UINT32_C(0xc2b2ae35);

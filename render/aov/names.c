@@ -28,7 +28,7 @@ static struct aov_name object_of(const struct session *session, uint32_t body, s
                              .at = where.at};
 }
 
-// By the first triangle of a body that shows each of its materials.
+// Names each material of a body, found by the first triangle that shows it.
 static void name_materials_of(const struct session *session, uint32_t number, const char *object,
                               struct arena *arena, struct aov_name *materials) {
     const struct scene_body *body = &session->resolved.bodies[number];
@@ -60,7 +60,7 @@ static void finish_names(struct aov_name *names, uint32_t count, struct arena *a
     }
 }
 
-// Materials of the scene that no body shows have their names all the same.
+// Materials of the scene that no body shows are named too.
 static void name_rest(const struct session *session, struct aov_names *out, struct arena *arena) {
     for (uint32_t i = 0; i < out->material_count; i++) {
         struct aov_name *name = &out->materials[i];

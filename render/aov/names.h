@@ -1,4 +1,4 @@
-// Who is behind the numbers of `object` and `material`: a table of names, and the manifest of mattes.
+// What the numbers of `object` and `material` stand for: a table of names, and the manifest of mattes.
 //
 // Number 1 is the first body in the order of the scene (grammar/ir.h), or the first material; 0 is the
 // background. Ownership: the arena given, whose guard the caller sets. Thread safety: plain data.
@@ -13,7 +13,7 @@ struct aov_name {
     const char *kind; // "sphere", "inline material"
     span at;          // SPAN_NONE: not in the scene
     uint32_t bits;    // of its hash (matte.h)
-    bool is_again;    // one before has the same name: they share a matte
+    bool is_again;    // an earlier one has the same name: they share a matte
 };
 
 struct aov_names {
@@ -25,7 +25,7 @@ void aov_names_make(const struct session *session, struct arena *arena, struct a
 // The table as JSON: {"objects": [{"id": 1, "name": ..., "kind": ..., "place": ..., "hash": ...}, ...],
 // "materials": [...]}.
 void aov_names_json(const struct aov_names *names, struct source_set *sources, struct strbuf *out);
-// Of Cryptomatte: {"name":"hash", ...}, each name once.
+// The manifest of Cryptomatte: {"name":"hash", ...}, each name once.
 void aov_manifest(const struct aov_name *names, uint32_t count, struct strbuf *out);
 
 #endif

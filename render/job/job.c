@@ -7,7 +7,7 @@
 
 enum {
     TILE_ROWS = 8,
-    BAND_PIXELS = 4 << 20,   // of a band at most: 48 MiB
+    BAND_PIXELS = 4 << 20,   // most pixels of a band: 48 MiB
     PATHS_OF_CPU = 2 << 20,  // in a band: about a second of a few processors
     PATHS_OF_GPU = 32 << 20, // enough to keep it busy
 };

@@ -18,7 +18,8 @@ struct job_band_device {
 
 // ---- bands
 
-// A band that is not there and that nobody works on; the number of bands: none is left, or none is begun.
+// Claims a band that is missing and that nobody works on. The number of bands: none is left, or no more are
+// begun.
 static uint32_t claim(struct job_bands *run) {
     uint32_t band = run->bands.count;
     parallel_lock_take(&run->lock);
@@ -66,7 +67,7 @@ static void add_statistics(struct render_statistics *all, const struct render_st
         from->lost_by_weight > to->lost_by_weight ? from->lost_by_weight : to->lost_by_weight;
 }
 
-// As the checkpoint has them, with places in the whole picture.
+// Packs faults as the checkpoint has them, with positions in the whole picture.
 static void pack_faults(const struct render_settings *settings, const struct render_fault *faults,
                         struct bands_faults *out) {
     *out = (struct bands_faults){0};
@@ -202,7 +203,7 @@ void job_bands_finish(struct job_bands *run) {
 
 // ---- what was wrong
 
-// What was wrong, added to what was wrong in bands above.
+// Adds a band's faults to those of the bands above.
 static void add_faults(const struct bands_faults *in, struct render_fault *faults) {
     for (int kind = 1; kind < RENDER_FAULT_KINDS; kind++) {
         const uint32_t *words = in->words[kind - 1], before = faults[kind].pixels;

@@ -1,11 +1,11 @@
-// A job's picture in bands: each is on the disk when the next one begins, so that a process needs memory for
-// one, and another process can go on. Several devices may share the work: each takes the next band that
+// A job's picture in bands: each is on the disk before the next one begins, so a process needs memory for
+// only one, and another process can go on. Several devices may share the work: each takes the next band that
 // nobody has.
 //
 // A band's bytes are those of its device, so only devices of one name and driver share a picture. Errors:
-// enum shot_status, and what the checkpoint says. Ownership: job_bands_finish frees all but the job and what
-// is its caller's: the checkpoint and the devices. Thread safety: the thread of the job's device; callbacks
-// of other devices come from threads of their own.
+// enum shot_status, and bands.spool.error for the checkpoint. Ownership: job_bands_finish frees all but the
+// job and what the caller owns: the checkpoint and the devices. Thread safety: the thread of the job's
+// device; callbacks of other devices come from threads of their own.
 #ifndef GLINT_RENDER_JOB_JOB_BANDS_H
 #define GLINT_RENDER_JOB_JOB_BANDS_H
 
@@ -22,7 +22,7 @@ enum {
 struct job_bands {
     struct job *job;
     struct bands bands;       // the checkpoint, which the caller has opened
-    bool (*is_stopped)(void); // no further band is begun
+    bool (*is_stopped)(void); // true: no further band is begun
     struct image band;
     double begun;
     struct job_band_device *devices[JOB_BAND_DEVICES_MOST]; // besides the job's
@@ -34,19 +34,20 @@ struct job_bands {
     struct render_statistics all; // of the bands that were made now
 };
 
-// false: there is no memory for a band.
+// The caller has set job, bands and is_stopped. false: there is no memory for a band.
 bool job_bands_begin(struct job_bands *run);
-// Has a device, besides the job's, begin; `progress` is asked whether to go on. false: as above.
+// Starts another device, on a thread of its own (at most JOB_BAND_DEVICES_MOST); `progress` is asked there
+// whether to go on. false: as above.
 bool job_bands_add_device(struct job_bands *run, struct gpu *gpu, struct render_progress progress);
-// No further bands are begun.
+// Begins no further bands.
 void job_bands_give_up(struct job_bands *run);
-// All bands that are left, until something fails or ends it, and waits for the other devices. The status is
-// that of the job's device; bands.done_count says whether they are all there, bands.spool.error what kept
-// them from the disk.
+// Makes all bands that are left, until something fails or ends it, and waits for the other devices. Returns
+// the status of the job's device; bands.done_count says whether all bands are there, bands.spool.error what
+// kept them from the disk.
 enum shot_status job_bands_take(struct job_bands *run, const struct render_progress *progress);
 // The first of the other devices that has failed; NULL: none has.
 const struct gpu *job_bands_failed(const struct job_bands *run);
-// What was wrong in all bands, as errors in the session's sink.
+// Reports the faults of all bands, as errors in the session's sink.
 void job_bands_report_faults(struct job_bands *run);
 // Accepts one that was not begun.
 void job_bands_finish(struct job_bands *run);

@@ -5,7 +5,7 @@
 #include "render/record/record.h"
 
 enum {
-    PIXEL_BYTES = 64, // that a picture of the wanted size needs at most while it is read
+    PIXEL_BYTES = 64, // per pixel, at most, while a picture of the wanted size is read
     SPARE_BYTES = 1 << 20,
 };
 
@@ -50,7 +50,7 @@ static bool part_is_there(const struct job *job, const char *path, const struct 
     struct strbuf error;
     strbuf_init(&error);
     record_of_texts(texts, &wanted);
-    // Its head says what it is; all of it is read only then, to see that it is whole.
+    // The head says what it is; only if it fits is the rest read, to see that it is whole.
     bool good = part_read(path, true, there, &error) && same_pixels(there, &job->part);
     if (good)
         record_of_line(str_from(there->record), &read);
@@ -70,7 +70,7 @@ static struct image_texts texts_of(const struct job *job, bool is_double, enum i
     return provenance_texts(&made, job->arena);
 }
 
-// Where the scene leaves the precision open, the same scene had it chosen as it would be now.
+// If the scene leaves the precision open, it was chosen for the same scene as it would be now.
 bool job_picture_is_done(const struct job *job, const char *path, enum image_format format,
                          struct image_coding coding) {
     bool done = false;

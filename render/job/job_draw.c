@@ -1,4 +1,4 @@
-// A job's picture: its frames, in time where it has to be, and what is made after them.
+// A job's picture: its frames, within a time limit if there is one, and what is made after them.
 #include "core/clock.h"
 #include "core/quantile.h"
 #include "core/timeline.h"
@@ -10,15 +10,15 @@
 
 // ---- a frame that ends in time for its files to be written
 
-// What is expected after the frame takes this much longer than it did with its first sample.
+// What follows the frame is expected to take this much longer than with the first sample.
 static const double RESERVE = 1.5;
-// A file is written to the disk at least this fast, and its name changed.
+// A file is written to the disk, and renamed, at least this fast.
 static const double BYTES_A_SECOND = 1e8, RENAME_SECONDS = 0.005;
 
-// Where a first sample's picture needs one look of the audit, the whole one may need the second, of twice as
-// many.
+// If the audit takes one look at the first sample's picture, the whole picture may need a second look at
+// twice as many pixels.
 static const double LOOKS = 3;
-// What is aimed at: a dispatch cannot be ended, and other programs run too.
+// How much of the time is planned for: a dispatch cannot be interrupted, and other programs run too.
 static const double AIM = 0.98, DISPATCH_SECONDS = 0.05;
 
 static void set_samples(struct job *job, uint32_t samples) {
@@ -31,7 +31,7 @@ static void set_samples(struct job *job, uint32_t samples) {
 
 static struct audit_wish audit_wish(const struct job *job) {
     const struct job_wish *wish = &job->wish;
-    // Where time ends the frame it is not decided: that may take any time.
+    // With a time limit the audit does not decide: that may take any time.
     const bool in_time = wish->time.seconds > 0, decides = wish->max_off >= 0;
     const struct render_estimate *estimate = job_estimate(job);
     return (struct audit_wish){.reference = job->shot->reference,
@@ -41,7 +41,7 @@ static struct audit_wish audit_wish(const struct job *job) {
                                .decides = decides && !in_time};
 }
 
-// With the first sample's picture: what comes after the frame is done once, to know what it takes.
+// Does what follows the frame once, with the first sample's picture, to know how long it takes.
 static void measure_rest(struct job *job) {
     const struct job_time *time = &job->wish.time;
     const double start = clock_seconds();
@@ -77,7 +77,7 @@ static bool is_over(void *context) {
     return deadline_is_over(&job->deadline, clock_seconds());
 }
 
-// How far a frame is, which its time may end before its samples do.
+// Progress of a frame that may end by its time before its samples.
 struct timed_progress {
     const struct job *job;
     const struct render_progress *progress;

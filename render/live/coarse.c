@@ -26,7 +26,7 @@ static bool set_up(struct shot *shot, uint32_t width, uint32_t height) {
     return renderer_change(shot->renderer, &shot->flat, &shot->settings);
 }
 
-// From the last row and pixel on, so that no pixel is overwritten before it is taken.
+// Goes backwards from the last pixel, so no pixel is overwritten before it is read.
 static void enlarge(struct image *image, uint32_t width, uint32_t height) {
     for (uint32_t y = image->height; y-- > 0;)
         for (uint32_t x = image->width; x-- > 0;) {

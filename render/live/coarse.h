@@ -6,11 +6,11 @@
 
 #include "render/shot.h"
 
-// By how much to shrink width and height, by the seconds that a sample of a pixel took before (0: not known);
-// 1: the whole picture is there as soon.
+// The factor to shrink width and height by, given the seconds that a sample of a pixel took before (0: not
+// known). 1: the whole picture is soon there anyway.
 uint32_t coarse_shrink(const struct render_settings *settings, double pixel_seconds);
-// One sample of each of those pixels, into an image of the shot's size. The shot's settings stay as they are,
-// but for SHOT_DEVICE.
+// Takes one sample of each of these few pixels, into an image of the shot's size. The shot's settings stay as
+// they are, except with SHOT_DEVICE.
 enum shot_status coarse_take(struct shot *shot, uint32_t shrink, struct image *image,
                              const struct render_progress *progress);
 

@@ -11,8 +11,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-// A camera further from the origin than this, in flat units, where the scene's bodies are within 2, gets one
-// of its own: what is close to it would be rounded as coarsely as what is far.
+// A camera farther from the origin than this, in flat units (the scene's bodies are within 2), gets an origin
+// of its own: else what is close to it would be rounded as coarsely as what is far.
 #define ORIGIN_REACH 4.0
 
 // ---- beginning and end
@@ -57,7 +57,8 @@ static void watch_reads(struct live *live, const struct session *session) {
         watch_add_missing(live->watch, session->files.missed.items[i]);
 }
 
-// A scene with errors may end before it has read all that the good one did.
+// Loading a scene with errors may stop before it has read all files of the good one, so those are watched
+// too.
 static void watch_all(struct live *live, const struct session *loaded) {
     watch_begin(live->watch);
     watch_reads(live, loaded);
@@ -68,7 +69,7 @@ static void watch_all(struct live *live, const struct session *loaded) {
 
 // ---- counters
 
-// Of what is read a live_loaded knows: it may be read beside what is counted here.
+// Files read are counted in live_loaded, because reading may run in parallel with what is counted here.
 static struct live_change counters_of(const struct live *live) {
     return (struct live_change){.trees_built = bvh_keep_built(live->keep),
                                 .trees_kept = bvh_keep_found(live->keep),
@@ -89,8 +90,8 @@ static enum live_state state_of(enum shot_status status) {
     return status == SHOT_OK ? LIVE_SHOWN : status == SHOT_DEVICE ? LIVE_FAILED : LIVE_BROKEN;
 }
 
-// A new shot. The one that is there stays if this fails by the scene; what points into a shot needs its
-// place.
+// Opens a new shot, in the same place, because there are pointers into it. If the scene makes this fail, the
+// old shot stays.
 static enum live_state open_whole(struct live *live, struct session *session, uint32_t camera) {
     const bool asks = session->scene->trace.precision == IR_PRECISION_AUTO;
     const struct shot_wish wish = {.keep = live->keep, .choice = asks ? &live->choice : NULL};
@@ -152,7 +153,7 @@ static bool flatten_again(struct live *live, struct session *session, const stru
     return done;
 }
 
-// The shot that is there, over the new session.
+// Reuses the old shot for the new session.
 static enum live_state renew(struct live *live, struct session *session, uint32_t camera) {
     struct shot *shot = &live->shot;
     struct flat_scene flat, old = shot->flat;
@@ -199,7 +200,7 @@ static enum live_state show(struct live *live, const struct live_loaded *loaded,
     return state;
 }
 
-// What is kept of the scene's text: NULL where nothing is, or can be.
+// The scene's text, kept; NULL: it is not kept, or cannot be.
 static struct session_kept *keep_text(struct live *live, const struct session_options *options) {
     if (live->text && session_kept_fits(live->text, options))
         return live->text;
@@ -247,7 +248,7 @@ enum live_state live_show(struct live *live, struct live_loaded loaded, str came
         bvh_keep_sweep(live->keep);
     } else {
         live->broken = loaded.session;
-        live->has_measured = false; // that was of this one
+        live->has_measured = false; // it was measured for this session
     }
     return state;
 }

@@ -1,11 +1,11 @@
 // A scene that is shown while it is written: session, flat scene and renderer that follow the files.
 //
-// live_load reads everything again, and does again only what has to be done: no mesh is read whose file is
-// the same, no tree is built over the same boxes, nothing is written to the device that lies there, no kernel
-// is compiled that is there. A scene with errors changes nothing: the one before stays, to be shown.
+// live_load reloads everything but repeats only the work that it must: it does not read a mesh whose file is
+// the same, build a tree over the same boxes, write to the device what is there already, or compile a kernel
+// again. A scene with errors changes nothing: the previous one is still shown.
 // Two things are decided when the geometry is loaded and stay while it is edited: the place that coordinates
-// are relative to, and the precision that `auto` chooses. So a picture may differ from that of a
-// program that has just started in how it was rounded, after the first camera moved.
+// are relative to, and the precision that `auto` chooses. So after the first camera moved, a picture may be
+// rounded differently from that of a program that has just started.
 //
 // Input: options as for a session; a device. Errors: enum live_state. Ownership: live_finish frees all but
 // the device, and accepts a live that live_begin refused. Thread safety: the gpu's thread.
@@ -21,8 +21,8 @@ struct live_wish {
     struct session_options session; // what it points to outlives the live
     str camera;                     // as session_camera has it
     bool polls;                     // files are looked at from time to time, without inotify
-    // Of many pictures, each has the bytes that a program that has just started would give it: the origin is
-    // chosen for each, and the precision, unless live->follows. No file is watched.
+    // Each of many pictures gets the bytes that a program that has just started would give it: the origin
+    // and, unless live->follows, the precision are chosen for each. No file is watched.
     bool alone;
     // Called by live_load when all files are read, before anything is made of them. NULL: nothing.
     void (*is_read)(void *context);
@@ -42,7 +42,7 @@ struct live_change {
     uint32_t pipelines_made;
     uint32_t precision_asked;     // 1: `auto` made a trial
     struct render_update written; // to the device
-    bool is_whole; // all was made anew: the first time, and where the precision was chosen again
+    bool is_whole; // everything was made anew: the first time, and if the precision was chosen again
     double read_seconds, assets_seconds, flatten_seconds, upload_seconds;
     double seconds; // of all
 };
@@ -56,12 +56,12 @@ struct live {
     struct session *session; // of the shot; NULL: there is none yet
     struct session *broken;  // the last one loaded, if it has errors
     struct shot shot;
-    uint32_t camera; // that the wish names, in the session
+    uint32_t camera; // index in the session of the one that the wish names
     vec3 origin;     // that coordinates are relative to
-    // The next session shows what the shot's does, a moment later: what `auto` found holds where the answer
-    // was clear and what is measured stays like it was (live_precision.c).
+    // The next session shows what the shot's does, a moment later: the choice of `auto` is kept if it was
+    // clear and the measures stay similar (live_precision.c).
     bool follows;
-    bool is_asked; // `choice` is what the last trial found, for `kept` sessions since
+    bool is_asked; // `choice` is what the last trial found; `kept` sessions have used it since
     uint32_t kept;
     struct precision_choice choice;
     struct precision_report measured; // of the session, where has_measured
@@ -81,15 +81,15 @@ struct live_loaded {
 // false: no memory.
 bool live_begin(struct live *live, const struct live_wish *wish, struct gpu *gpu);
 void live_finish(struct live *live);
-// Reads all again. Whatever the result, what it read is watched from now on.
+// Reads everything again. Whatever the result, the files that it read are watched from now on.
 enum live_state live_load(struct live *live);
-// The two halves of live_load, for a scene and settings that change. live_read may run beside a frame of the
-// shot, on another thread, one at a time; its result is for live_show, or for live_drop.
-// `again`: other scenes of the same files are read too, so that their text is kept.
+// The two halves of live_load, for a scene and settings that change. live_read may run on another thread
+// during a frame of the shot, one call at a time; pass its result to live_show or live_drop.
+// `again`: the same files are read for other scenes too, so their text is kept.
 struct live_loaded live_read(struct live *live, const struct session_options *options, bool again);
 enum live_state live_show(struct live *live, struct live_loaded loaded, str camera);
 void live_drop(struct live_loaded loaded);
-// Another camera of the session that is shown; where there is none of this name, the shot stays.
+// Turns to another camera of the session that is shown; if none has this name, the shot stays.
 enum live_state live_turn(struct live *live, str camera);
 // After the first picture: compiles what further ones would wait for. false: see gpu_error.
 bool live_warm(struct live *live);

@@ -7,7 +7,7 @@
 // A trial counts pixels that differ; single precision is chosen where few do. An answer holds for further
 // frames only if it was clear: an eighth of that, or eight times as many.
 #define CLEAR 8
-// What is measured may become so much finer, or coarser, than it was where the trial was made.
+// The factor by which measures may become finer or coarser than they were at the trial.
 #define ROOM 2.0
 // A camera that turns by more from frame to frame shows something else: cosine of 20 degrees.
 #define SAME_VIEW 0.94
@@ -31,7 +31,7 @@ static bool is_like(const struct precision_report *was, const struct precision_r
     return true;
 }
 
-// What is measured depends on the bodies, on where the camera is, and on nothing else.
+// What is measured depends only on the bodies and on where the camera is.
 static bool is_measured(const struct live *live, const struct session *session,
                         const struct flat_input *input) {
     const struct scene *was = &live->session->resolved, *is = &session->resolved;
@@ -69,7 +69,7 @@ static void look(void *context) {
         return;
     live->measured = now;
     live->has_measured = true;
-    // Large scenes are only measured, whoever asks.
+    // Large scenes are only measured, never traced.
     l->keeps = choice->traced ? is_like(&choice->report, &now, choice->needs_double)
                               : now.suffices == !choice->needs_double;
 }

@@ -6,8 +6,8 @@
 
 #include "render/live/live.h"
 
-// Of a session that follows the shot's, seen through a camera. false: ask again, or what asking found is not
-// known.
+// Whether it holds for a session that follows the shot's, seen through this camera. false: ask again, or the
+// result of asking is not known.
 bool live_keeps_precision(struct live *live, struct session *session, uint32_t camera);
 
 #endif

@@ -12,7 +12,7 @@
 
 enum {
     SEAL_BYTES = 8,
-    READ_BYTES = 1 << 20, // at a time, where bands are judged
+    READ_BYTES = 1 << 20, // at a time, when bands are judged
 };
 
 static const char kind[] = "checkpoint";
@@ -21,7 +21,7 @@ static size_t row_bytes(const struct bands *bands) {
     return heap_times(bands->part.region.width, 3 * sizeof(float));
 }
 
-// Where a band begins; of bands->count, where the last one ends at most.
+// Where a band begins; for bands->count, the most where the last one can end.
 static uint64_t place_of(const struct bands *bands, uint32_t band) {
     const uint64_t bytes = (uint64_t)row_bytes(bands) * bands->rows + sizeof *bands->faults + SEAL_BYTES;
     return BANDS_HEAD_BYTES + band * bytes;
@@ -85,7 +85,7 @@ static bool take_head(struct bands *bands, char *text) {
     seal = part_take_line(&at, "seal");
     if (!seal || sscanf(seal, "%16" SCNx64, &sum) != 1 || !prepare(bands, rows))
         return false;
-    // Reading has changed the text: what was read is written again.
+    // Reading has changed the text, so what was read is written again to check the seal.
     strbuf_init(&again);
     part_put_head(&bands->part, kind, &again);
     strbuf_format(&again, "bands %u\n", rows);
@@ -94,7 +94,7 @@ static bool take_head(struct bands *bands, char *text) {
     return good;
 }
 
-// Whether a band is whole; then *faults is what it has.
+// Whether a band is whole; if so, *faults gets its faults.
 static bool is_whole(struct bands *bands, uint32_t band, void *buffer, struct bands_faults *faults) {
     uint64_t at = place_of(bands, band), sum;
     size_t left = row_bytes(bands) * bands_rows(bands, band);

@@ -7,8 +7,8 @@
 //     seal 3f0c...              XXH64 of the lines before
 //
 // filled up with line ends to BANDS_HEAD_BYTES. Bands follow at places that do not depend on each other: rows
-// of three floats a pixel, as this machine has them, what was wrong in them, and an XXH64 of both. A band
-// whose seal is wrong is not there. So whatever ends the process, each band is there or not; and two
+// of three floats a pixel in this machine's format, what was wrong in them, and an XXH64 of both. A band with
+// a wrong seal counts as missing. So however the process ends, each band is there or missing; and two
 // processes that render the same picture by mistake write the same bytes to the same places.
 //
 // Errors: false, with a sentence about it that begins with a verb; empty: there is no memory. Ownership:
@@ -27,14 +27,14 @@ enum {
     BANDS_FAULT_WORDS = 7,
 };
 
-// What was wrong in a band, for who made it; zeros: nothing.
+// What was wrong in a band, as its maker encodes it; zeros: nothing.
 struct bands_faults {
     uint32_t words[BANDS_FAULTS][BANDS_FAULT_WORDS];
 };
 
 struct bands {
-    struct part part;     // of which picture; its region is all that the file gets
-    uint32_t rows, count; // of a band, but the last; how many there are
+    struct part part;     // the picture; its region is all that the file will hold
+    uint32_t rows, count; // rows of each band but the last; number of bands
     bool *done;           // by band
     uint32_t done_count;
     bool is_judged; // each band was looked at
@@ -45,12 +45,12 @@ struct bands {
 // A new file, with no band. `rows` is more than 0.
 bool bands_create(struct bands *bands, const char *path, const struct part *part, uint32_t rows,
                   struct strbuf *error);
-// A file that is there, with the bands that it has, each of which is read to see whether it is whole; calls
-// `goes_on`, unless NULL, between them, and leaves the rest unjudged where that is false. *missing: there is
-// no such file, and nothing is wrong.
+// Opens an existing file and reads each of its bands to see whether it is whole. Calls `goes_on`, unless
+// NULL, between them; if that returns false, the rest stays unjudged. *missing: there is no such file, which
+// is not an error.
 bool bands_open(struct bands *bands, const char *path, bool (*goes_on)(void *context), void *context,
                 bool *missing, struct strbuf *error);
-// What keeps the file from being that of a picture, as words before "this one"; NULL: nothing does.
+// How the file's picture differs from `part`, as words before "this one"; NULL: it does not.
 const char *bands_difference(const struct bands *bands, const struct part *part);
 // Rows of a band, counted from the first one of the region.
 uint32_t bands_begin(const struct bands *bands, uint32_t band);

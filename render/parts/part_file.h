@@ -13,9 +13,9 @@
 //
 // Then floats, little endian: rows from the top, and of a row its planes, three floats a pixel. A part with
 // all samples has one plane, their mean. A part with some has one for each sample: sums of floats depend on
-// their order, and only so can they be added up as they are in a picture that is rendered whole. The last
-// eight bytes are the XXH64 of all before. Errors: false, with a sentence about it; ownership: part_finish
-// frees the floats. Thread safety: plain data.
+// their order, so the samples must be separate to be added up as in a picture that is rendered whole. The
+// last eight bytes are the XXH64 of all before. Errors: false, with a sentence about it; ownership:
+// part_finish frees the floats. Thread safety: plain data.
 #ifndef GLINT_RENDER_PARTS_PART_FILE_H
 #define GLINT_RENDER_PARTS_PART_FILE_H
 
@@ -50,13 +50,14 @@ struct part {
 uint32_t part_planes(const struct part *part);
 // Appends the whole file.
 void part_encode(const struct part *part, struct strbuf *out);
-// The same file of a part with all samples, whose rows come some at a time. false: as image_rows_write.
+// Writes the same file for a part with all samples, whose rows come a few at a time. false: as
+// image_rows_write.
 bool part_write_rows(const struct part *part, const struct image_rows *rows, const struct image_sink *sink);
 // Reads a file that part_encode has made. `head_only`: not its floats.
 bool part_read(const char *path, bool head_only, struct part *part, struct strbuf *error);
 void part_finish(struct part *part);
-// Of a part with all samples whose head was read, without its floats: whether its file is whole, which takes
-// reading it; and `count` rows of it, the first of its region is 0. false: it cannot be read.
+// For a part with all samples of which only the head was read: whether its file is whole, which means reading
+// all of it; and `count` rows from row y of its region. false: it cannot be read.
 bool part_check(const char *path, const struct part *part, struct strbuf *error);
 bool part_take_rows(struct spool *file, const struct part *part, uint32_t y, uint32_t count, float *rgb);
 
@@ -64,10 +65,10 @@ bool part_take_rows(struct spool *file, const struct part *part, uint32_t y, uin
 
 // The lines above from the first to `record`; `kind` is "part".
 void part_put_head(const struct part *part, const char *kind, struct strbuf *out);
-// The other way round: *text is then after them. It is changed. false: this is something else.
+// Reads these lines: *text is then after them, and was changed. false: this is something else.
 bool part_take_head(char **text, const char *kind, struct part *part);
-// A further line of such a head: its text after the word that it begins with, and whole numbers. NULL or
-// false: it is another line.
+// Reads a further line of such a head: the text after its first word, or whole numbers. NULL or false: it is
+// another line.
 char *part_take_line(char **text, const char *word);
 bool part_take_numbers(char **text, const char *word, uint32_t *out, int count);
 

@@ -91,7 +91,8 @@ static bool lacks_samples(struct parts_fault *fault, const struct part_region *r
     return false;
 }
 
-// The parts of one region have each sample once. Returns the entry after them; NULL: fault says why not.
+// Whether the parts of one region have each sample once. Returns the entry after them; NULL: they do not, and
+// fault says why.
 static const struct entry *judge_samples(const struct entry *begin, const struct entry *end,
                                          struct parts_fault *fault) {
     const struct part *first = begin->part;
@@ -124,7 +125,7 @@ static uint32_t gap_in_row(const struct entry *entries, uint32_t count, uint32_t
     return x;
 }
 
-// Each pixel is in a region: rows differ only where regions begin or end.
+// Whether each pixel is in a region: rows differ only where regions begin or end.
 static bool judge_gaps(const struct entry *entries, uint32_t count, struct parts_fault *fault) {
     const struct part *first = entries->part;
     for (uint32_t i = 0; i <= count; i++) {
@@ -182,7 +183,7 @@ bool parts_fit(const struct part *parts, uint32_t count, uint32_t *order, struct
 
 // ---- their picture
 
-// As the tracer adds samples: what is not finite marks the pixel, for good.
+// As the tracer adds samples: a value that is not finite marks the pixel for good.
 static void add_sample(float sum[3], const float sample[3]) {
     const float next[3] = {sum[0] + sample[0], sum[1] + sample[1], sum[2] + sample[2]};
     const bool finite = isfinite(next[0]) && isfinite(next[1]) && isfinite(next[2]);

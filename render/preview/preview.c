@@ -9,12 +9,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define LEAST_GAIN  1.5 // in width and height, that a further picture is worth its time for
-#define WHOLE_SHARE 0.8 // of them, above which it is the whole one: it is seldom late
+#define LEAST_GAIN  1.5 // in width and height, from which a further picture is worth its time
+#define WHOLE_SHARE 0.8 // share of them above which the whole picture is made: it is seldom late
 
 struct preview {
     const struct preview_devices *devices;
-    bool is_asked; // the devices
+    bool is_asked; // the devices were asked
     struct gpu *gpu;
     char *path; // of the scene that `live` is about
     size_t path_length;
@@ -135,7 +135,7 @@ static enum shot_status draw_in_time(struct preview *p, const struct preview_wis
     image_finish(left);
     if (status == SHOT_OK)
         *made = rest;
-    // What was made first stays where there was no time for more.
+    // If there was no time for more, the first picture stays.
     return status == SHOT_CANCELLED && !*cancelled ? SHOT_OK : status;
 }
 
@@ -233,7 +233,7 @@ static enum preview_state take_by_reference(struct preview *p, const struct prev
         reference_shot_close(&shot);
         return PREVIEW_BROKEN;
     }
-    // Before time is taken: the tree is made once, for all pictures of this scene.
+    // Before timing starts: the tree is made once, for all pictures of this scene.
     if (!reference_source_get(&shot.source))
         status = SHOT_SCENE;
     else if (!*cancelled)
@@ -258,7 +258,7 @@ static bool begin_live(struct preview *p, const struct preview_wish *wish) {
     drop_live(p);
     p->path = heap_text_of(path.ptr, path.len);
     p->path_length = path.len;
-    // What is read is said with each picture.
+    // Each picture says what is to be read.
     const struct live_wish live = {0};
     p->is_live = p->path != NULL;
     return p->is_live && live_begin(&p->live, &live, p->gpu);

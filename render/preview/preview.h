@@ -1,10 +1,10 @@
-// A small picture of a scene, soon: for who edits it and has not saved.
+// A small picture of a scene, soon: for people who edit it and have not saved.
 //
-// First a quarter of the width and height is drawn, which says how long the rest takes; then as many pixels
-// and samples of what is asked for as are made in time. What a picture of the same scene needs again stays
-// from one to the next (render/live/live.h). A device that fails is given up: from then on the reference
-// draws. Errors: enum preview_state. Ownership: preview_destroy takes NULL; pictures are the caller's to
-// finish. Thread safety: one thread at a time; `cancelled` may be set by any.
+// First a picture of a quarter of the width and height is drawn, which tells how long the rest takes; then as
+// many of the requested pixels and samples as fit in the time. What a picture of the same scene needs again
+// stays from one to the next (render/live/live.h). A device that fails is given up: from then on the
+// reference draws. Errors: enum preview_state. Ownership: preview_destroy takes NULL; pictures are the
+// caller's to finish. Thread safety: one thread at a time; `cancelled` may be set by any.
 #ifndef GLINT_RENDER_PREVIEW_PREVIEW_H
 #define GLINT_RENDER_PREVIEW_PREVIEW_H
 
@@ -66,7 +66,7 @@ enum preview_state preview_draw(struct preview *preview, const struct preview_wi
 void preview_picture_finish(struct preview_picture *picture);
 // The session that was loaded last; NULL: none. The preview's, until the next picture.
 struct session *preview_findings(struct preview *preview);
-// Of what drew last: the device's name, or "reference".
+// What drew last: the device's name, or "reference".
 const char *preview_device(const struct preview *preview);
 
 #endif

@@ -23,8 +23,8 @@ static bool has_place(enum image_format format) {
     return format != IMAGE_PFM && format != IMAGE_WEBP;
 }
 
-// A frame that ends in time takes all samples of all pixels, although the scene says that some end sooner: no
-// option says that.
+// A frame with a time limit takes all samples of all pixels even if the scene lets some end sooner: no option
+// asks for that.
 static bool is_repeatable(const struct provenance *made) {
     const struct session *s = made->session;
     return !made->gpu || s->options.error >= 0 || !(s->scene->image.error > 0) ||

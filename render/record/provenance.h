@@ -22,8 +22,8 @@ struct provenance {
     struct image_coding coding; // of its file
 };
 
-// The texts for the head of its file; none for a format without a place, and for a picture that no command
-// makes again.
+// The texts for the head of its file; none for a format that has no place for them, or for a picture that no
+// command makes again.
 struct image_texts provenance_texts(const struct provenance *made, struct arena *arena);
 // The texts of a whole picture as a line for its parts, which do not know the format; empty: there are none,
 // or they need more than `size` bytes. And back, for the picture that parts make.

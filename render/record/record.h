@@ -3,8 +3,8 @@
 //
 // Only what changes the picture is in it: no time, no folder that the user did not write, neither the name of
 // the output nor options that change no pixel. So the same command writes the same bytes, and so does one
-// that says the same otherwise (--time against the samples that it allowed). Ownership: text lies in the
-// given arena, whose guard the caller sets. Thread safety: pure.
+// that says the same in other words (such as --time, and the samples that it allowed). Ownership: text lies
+// in the given arena, whose guard the caller sets. Thread safety: pure.
 #ifndef GLINT_RENDER_RECORD_RECORD_H
 #define GLINT_RENDER_RECORD_RECORD_H
 
@@ -67,8 +67,8 @@ bool record_read_command(str text, struct arena *arena, struct record_command *o
 // ...", a tab, "Scene hash: ..." and so on.
 void record_of_texts(const struct image_texts *texts, struct record_read *out);
 void record_of_line(str line, struct record_read *out);
-// Whether two records are of one picture: the same scene, version, device and settings, coded alike. Where
-// the scene is and an audit's note do not count. false also where one is not a record.
+// Whether two records are of one picture: the same scene, version, device and settings, coded alike. The
+// scene's path and an audit's note do not count. Also false if one is not a record.
 bool record_same(const struct record_read *a, const struct record_read *b, struct arena *arena);
 
 #endif

@@ -30,8 +30,8 @@ void record_of_line(str line, struct record_read *out) {
     }
 }
 
-// Of a command only what the other fields do not say: the scene's path, its settings and folders are in the
-// hash, or change nothing.
+// Compares only what the other fields do not say: the scene's path, its settings and folders are in the hash,
+// or change nothing.
 static bool same_command(const struct record_command *a, const struct record_command *b) {
     return a->is_reference == b->is_reference && a->as_file == b->as_file && a->noise == b->noise &&
            a->coding.bits == b->coding.bits && a->coding.quality == b->coding.quality &&

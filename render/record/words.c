@@ -55,7 +55,7 @@ static int digit_of(char c) {
     return at ? (int)(at - digits) : -1;
 }
 
-// After "$'"; the index after the closing quote, 0 for a mistake.
+// Reads on after "$'". Returns the index after the closing quote; 0: malformed.
 static size_t take_coded(str line, size_t at, char *out, size_t *length) {
     while (at < line.len && line.ptr[at] != '\'') {
         if (line.ptr[at] != '\\') {
@@ -72,7 +72,7 @@ static size_t take_coded(str line, size_t at, char *out, size_t *length) {
     return at < line.len ? at + 1 : 0;
 }
 
-// After "'".
+// The same, after "'".
 static size_t take_quoted(str line, size_t at, char *out, size_t *length) {
     while (at < line.len && line.ptr[at] != '\'')
         out[(*length)++] = line.ptr[at++];

@@ -12,7 +12,7 @@
 
 // Appends a word, after a space unless it is the first.
 void words_add(struct strbuf *line, str word);
-// Takes the next word off `line`. false: there is none, or its quotes are not as words_add writes them.
+// Takes the next word off `line`. false: there is none, or it is not quoted as words_add quotes.
 bool words_take(str *line, struct arena *arena, str *word);
 
 #endif

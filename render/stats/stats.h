@@ -13,8 +13,8 @@ struct stats {
     double read_seconds, assets_seconds, device_seconds;   // device: opening it
     double flatten_seconds, build_seconds, upload_seconds; // build: the trees, a part of flatten
     double first_frame_seconds, encode_seconds;            // first: compiling included
-    double count_seconds; // of tracing the last frame once more to count its rays; 0: while it was made, or
-                          // not at all
+    double count_seconds; // of tracing the last frame once more to count its rays; 0: they were counted while
+                          // it was made, or not at all
     double median_device_seconds; // of the frames, by the device's own clock
     double median_frame_seconds, least_frame_seconds, most_frame_seconds;
     int32_t frames;
@@ -28,7 +28,7 @@ struct stats {
     uint32_t width, height, samples;
     str camera;                             // its name; empty where the scene has none
     const struct render_estimate *estimate; // where pixels end by their error; NULL: all have `samples`
-    double unused_error;                    // the scene's, where none does; 0: it has none
+    double unused_error;                    // the scene's, if no pixel ends by it; 0: it has none
     bool has_rays;                          // they were counted
     bool has_audit;
     struct audit audit;

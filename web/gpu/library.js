@@ -1,20 +1,19 @@
-// WebGPU for tracer/gpu/gpu_web.c, which says what each function is: a library of emscripten's, linked into glint_gpu.js.
-// What waits gives a promise, and is marked `suspends`: whoever instantiates the module wraps those by WebAssembly.Suspending,
-// and calls Module.run(words), a promise of the exit status, in place of callMain. Module.kernel(name) gives a promise of a
-// kernel's WGSL.
+// WebGPU for tracer/gpu/gpu_web.c, which describes each function: a library for emscripten, linked into glint_gpu.js. Functions that wait
+// return a promise and are marked `suspends`: whoever instantiates the module wraps them in WebAssembly.Suspending, and calls
+// Module.run(words), a promise of the exit status, instead of callMain. Module.kernel(name) returns a promise of a kernel's WGSL.
 var gpuweb = {
   $WEB: {
     device: null, // kept from run to run, with what was compiled
     adapter: null,
-    fault: '', // what the device complained of
+    fault: '', // the device's error message
     lost: '',
     buffers: [null],
     programs: [null],
     known: {}, // programs by kernel and constants
     layouts: {},
     texts: {},
-    spare: {}, // buffers of bindings that a kernel names and does not use
-    hosts: [], // what is to be copied to the module's memory: recorded, and submitted
+    spare: {}, // buffers for bindings that a kernel declares but does not use
+    hosts: [], // copies to the module's memory: recorded, and submitted
     due: [],
     encoder: null,
     pass: null,
@@ -37,7 +36,7 @@ var gpuweb = {
       if (WEB.pass) WEB.pass.end();
       WEB.pass = null;
     },
-    // Without a pass.
+    // Ends the pass, for commands that are recorded between passes.
     between: function () {
       WEB.record();
       WEB.endPass();
@@ -54,7 +53,7 @@ var gpuweb = {
       WEB.encoder = null;
       WEB.count = 0;
     },
-    // What an operation that waits complains of; '' for nothing.
+    // The error message of an operation that waits; '' if there is none.
     watched: async function (filters, work) {
       filters.forEach(function (one) { WEB.device.pushErrorScope(one); });
       var value = work();

@@ -1,9 +1,9 @@
 // From SPIR-V to WGSL: node wgsl.mjs MODULES IN.spv OUT.wgsl, where MODULES is the folder that npm has filled (tools/webgpu.sh). naga
-// translates, and what it does not know is kept from it:
-//   - Operations on specialization constants pass it as constants with names, and become constant expressions of WGSL after it.
-//     What has a SpecId stands as `const glint_IDk: TYPE = DEFAULT;`, a line each: library.js writes a program's values in their
-//     places before the text is compiled, so that arrays may be as long as they say.
-//   - WGSL has no constant that is not a number: one is made of its bits when the kernel runs.
+// translates; what it does not support is replaced before and after:
+//   - Operations on specialization constants pass it as constants with names, and become constant expressions of WGSL afterwards.
+//     Each with a SpecId becomes a line `const glint_IDk: TYPE = DEFAULT;`: library.js puts a program's values there before the
+//     text is compiled, so array lengths may depend on them.
+//   - WGSL has no NaN constant: it is made from its bits when the kernel runs.
 //   - Float controls are left out: WGSL has none.
 import fs from 'node:fs';
 import path from 'node:path';
@@ -20,7 +20,7 @@ const TYPE_POINTER = 32, VARIABLE = 59;
 const SPEC_ID = 1, NON_WRITABLE = 24, BINDING = 33, BUILT_IN = 11, WORKGROUP_SIZE = 25; // decorations; a value of BuiltIn
 const isFloatControl = (n) => n >= 4464 && n <= 4468; // capabilities
 const isFloatMode = (n) => n >= 4459 && n <= 4463;
-const LENGTH = 1000003; // of an array, while naga has it: more than any other's, plus the place of its constant
+const LENGTH = 1000003; // of an array, while naga has it: larger than any other, plus the index of its constant
 // Operations on specialization constants, by their operands.
 const EXPRESSIONS = {
   128: (a, b) => `(${a} + ${b})`, 130: (a, b) => `(${a} - ${b})`, 132: (a, b) => `(${a} * ${b})`, 134: (a, b) => `(${a} / ${b})`, 137: (a, b) => `(${a} % ${b})`,
@@ -33,7 +33,7 @@ const EXPRESSIONS = {
 const bytes = fs.readFileSync(source);
 const words = new Uint32Array(bytes.buffer, bytes.byteOffset, bytes.length / 4);
 let ids = words[3];
-const code = []; // an instruction each: [operation, operands...]
+const code = []; // one entry per instruction: [operation, operands...]
 for (let at = 5; at < words.length; at += words[at] >>> 16) code.push([words[at] & 0xffff, ...words.subarray(at + 1, at + (words[at] >>> 16))]);
 
 // ---- what is known of it
@@ -51,7 +51,7 @@ const literal = (type, bits) => {
   return type === 'u32' ? `${bits}u` : type === 'i32' ? `i32(${bits}u)` : `bitcast<f32>(${bits}u)`;
 };
 
-// Bindings of buffers that no kernel writes, which naga does not tell from others.
+// Bindings of buffers that no kernel writes; naga does not distinguish them.
 const readOnly = new Set();
 const blocks = new Set(code.filter(([op, , , c]) => op === MEMBER_DECORATE && c === NON_WRITABLE).map(([, struct]) => struct));
 const pointers = new Set(code.filter(([op, , , struct]) => op === TYPE_POINTER && blocks.has(struct)).map(([, id]) => id));
@@ -60,7 +60,7 @@ for (const [op, id, decoration, binding] of code) if (op === DECORATE && decorat
 
 // ---- constants: their names, and what stands for them
 
-const values = new Map(); // by id: as an operand of an expression
+const values = new Map(); // by id: its text as an operand of an expression
 const named = []; // {id, name, type, text}: in order, each after those it needs
 const lengths = new Map(); // by id of a constant: the id of a plain one that takes its place
 let workgroup = null;
@@ -90,7 +90,7 @@ for (const [op, ...words] of code) {
     name(id, type, EXPRESSIONS[words[2]](...operands));
     out.push(plain(1));
   } else if (op === SPEC_COMPOSITE) {
-    workgroup = values.get(words[2]); // glslang makes no other: the size of a workgroup
+    workgroup = values.get(words[2]); // the size of a workgroup: glslang makes no other composite
     out.push([COMPOSITE, ...words]);
   } else if (op === TYPE_ARRAY && named.some((one) => one.id === words[2])) {
     const at = named.findIndex((one) => one.id === words[2]);

@@ -41,7 +41,7 @@ const scenes = path.join(source, 'scenes');
 const inScenes = (file, from) => path.relative(scenes, path.resolve(from, file));
 const order = (a, b) => a.localeCompare(b, 'en', { numeric: true });
 
-// What each of them reads, and whether all of it is there.
+// The files that each scene reads, and whether all of them exist.
 function readBy(files) {
   const words = [path.join(lint, 'cli.cjs'), 'deps', '--format', 'json', ...files];
   let text;

@@ -36,7 +36,7 @@ function apply(view, mapping, uri, edits) {
   view.dispatch({ changes, userEvent: 'input.fix', scrollIntoView: true });
 }
 
-const mappings = new WeakMap(); // of each view: from the text that was judged last to the text of now
+const mappings = new WeakMap(); // by view: from the text that was judged last to the current text
 
 function show(view, mapping, params, actions) {
   const { uri } = params;
@@ -118,10 +118,10 @@ const theme = EditorView.theme({
   '.cm-diagnosticAction': { backgroundColor: 'var(--accent)', color: 'var(--on-accent)' },
 });
 
-const made = Annotation.define(); // of a change that no key made
+const made = Annotation.define(); // marks a change that was not typed
 
 export class Editor {
-  // `changed(text)` and `moved()` are told of keys, not of `open`.
+  // `changed(text)` and `moved()` are called for keys, not for `open`.
   constructor({ parent, label, client, changed, moved }) {
     this.client = client;
     this.label = label;
@@ -148,7 +148,7 @@ export class Editor {
         isScene(path) ? this.client.plugin(uriOf(path), isXml(path) ? 'xml' : 'yaml') : [],
         EditorView.updateListener.of((update) => {
           if (update.docChanged) {
-            this.client.sync(); // at once: the client itself would wait for half a second without a key
+            this.client.sync(); // at once: by itself the client would wait until no key is pressed for half a second
             if (!update.transactions.some((one) => one.annotation(made))) this.changed(this.text());
           }
           if (update.selectionSet || update.docChanged) this.moved();
@@ -169,7 +169,7 @@ export class Editor {
     this.opened = path;
     this.view.setState(this.state(path, text));
   }
-  // The same file with another text, made by the program: not a key, but it can be undone.
+  // The same file with another text, made by the program: it was not typed, but can be undone.
   replace(text) {
     const old = this.text();
     if (old === text) return;

@@ -1,9 +1,9 @@
-// A worker with glint in it, seen from the page: files go in, commands and messages of a language client are answered.
+// A worker that runs glint, as the page sees it: it takes files, and answers commands and messages of a language client.
 
 export class Cancelled extends Error {}
 
 export class Glint {
-  // `module`: compiled, `gpu`: the one that draws by WebGPU; `files()`: all that the scene's folder holds, by path, for a worker that starts.
+  // `module`: compiled; `gpu`: it is the one that draws by WebGPU; `files()`: all files of the scene's folder, by path, for a new worker.
   // `address`: of its program, as this page names it.
   constructor(module, files, gpu = false, address = 'worker.js') {
     this.module = module;
@@ -43,7 +43,7 @@ export class Glint {
     }
   }
 
-  // Memory or stack ended: what waits is told so, and another worker takes the next command.
+  // Memory or stack ran out: pending commands are told so, and another worker takes the next one.
   died(why) {
     const waiting = this.waiting;
     this.worker.terminate();
@@ -52,7 +52,7 @@ export class Glint {
     if (this.onRestart) this.onRestart(why);
   }
 
-  // Ends what is being done, at once. The next worker begins while this one still works, so that it is ready then.
+  // Ends the current command at once. The next worker was started while this one was working, so it is ready.
   prepare() {
     this.spare = this.spare || this.fresh();
   }
@@ -105,8 +105,8 @@ export async function compile(name = 'glint.wasm') {
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
-// The module that draws by WebGPU, which is fetched only where that is worth it; null where the page has none, the browser cannot wait for a
-// GPU in a module, or what it has is a processor that plays one: the reference is faster. `?adapter=any` takes that too.
+// The module that draws by WebGPU, fetched only where it helps. null: the page has none, the browser cannot wait for a GPU in a module, or
+// its GPU is emulated by a processor, where the reference is faster. `?adapter=any` accepts that too.
 export async function compileForGpu() {
   if (!GLINT_HAS_GPU || !navigator.gpu || !WebAssembly.Suspending) return null;
   const adapter = await navigator.gpu.requestAdapter({ powerPreference: 'high-performance' });

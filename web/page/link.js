@@ -32,7 +32,7 @@ export async function encodeLink(path, text) {
   return `#z=${encodeURIComponent(path)},${toBase64(bytes)}`;
 }
 
-// {path, text}, {path}, or null where the fragment is empty; throws where it is damaged.
+// {path, text}, {path}, or null if the fragment is empty; throws if it is damaged.
 export async function decodeLink(fragment) {
   if (fragment.length < 2) return null;
   if (!fragment.startsWith('#z=')) return { path: decodeURIComponent(fragment.slice(1)) };

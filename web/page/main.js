@@ -1,4 +1,4 @@
-// The page: a text, what is wrong with it, and its picture. Nothing is fetched but the files beside it.
+// The page: a text, its findings, and its picture. It fetches only the files beside it.
 import { Editor, connect, isXml } from './editor.js';
 import { Glint, compile, compileForGpu } from './glint.js';
 import { decodeLink, encodeLink } from './link.js';
@@ -8,7 +8,7 @@ import { Project, filesOf, readFiles } from './project.js';
 import { Study } from './study.js';
 
 const FIRST = 'elements/spheres.glint.yaml';
-const OWN = 'yours/'; // the folder of what the user brings
+const OWN = 'yours/'; // the folder for files that the user brings
 const COLORS = ['--color', 'never'];
 
 const $ = (id) => document.getElementById(id);
@@ -17,7 +17,7 @@ const workers = () => [checker, clerk, painter, gpu].filter(Boolean);
 const stats = { passes: [], checks: [] };
 let checker, clerk, painter, gpu, client, editor, twin, picture, numbers, study;
 
-// What the page itself has to say; it stays until the next key. Mistakes of a scene are findings.
+// Shows a message of the page itself, until the next key. Mistakes in a scene are findings.
 function tell(text, good) {
   $('notice').textContent = text;
   $('notice').className = good ? 'good' : 'bad';
@@ -97,13 +97,13 @@ const spell = latest(async () => {
   if (from !== editor.path || $('twin').hidden) return;
   $('twin').classList.toggle('stale', status !== 0);
   if (status !== 0) {
-    // The last good one stays; where there is none, there is nothing to type in.
+    // The last good text stays; if there is none, there is nothing to type in.
     if (twin.path !== other(from)) twin.open(other(from), '', true);
   } else if (twin.path !== other(from) || twin.locked) twin.open(other(from), out);
   else twin.replace(out);
 });
 
-// The text has changed; what was measured of it counts no more.
+// The text has changed; what was measured for it no longer holds.
 function judge() {
   study.forget();
   check();
@@ -128,7 +128,7 @@ function edited(text) {
   judge();
 }
 
-// Typed in the other spelling: it becomes the text of the editor if it can be understood; if not, it is kept.
+// Text typed in the other spelling becomes the editor's text if it can be understood; if not, it is kept.
 async function editedTwin(text) {
   const { path } = twin;
   project.keep(path, text);
@@ -139,7 +139,7 @@ async function editedTwin(text) {
   if (status !== 0) return;
   project.forget(path);
   if ($('twin').classList.contains('stale')) {
-    // What is in the editor could not be understood, and is not in this text: it stays as one of its own.
+    // The editor's text could not be understood, and is not contained in this text: it is kept as a file of its own.
     project.keep(project.free(OWN + editor.path.split('/').pop()), editor.text());
     $('twin').classList.remove('stale');
     listScenes();
@@ -164,7 +164,7 @@ function showFile(path) {
 
 async function openScene(path, text) {
   const known = text ?? project.draft(path);
-  if (known !== null) project.files.set(path, known); // nothing is fetched in its place
+  if (known !== null) project.files.set(path, known); // so nothing is fetched in its place
   try {
     await project.open(path);
   } catch (error) {
@@ -172,7 +172,7 @@ async function openScene(path, text) {
       listScenes();
       return trouble(error);
     }
-    project.path = path; // its text is known, whatever else is missing
+    project.path = path; // its text is known, even if other files are missing
   }
   for (const name of project.files.keys()) {
     const draft = project.draft(name);
@@ -287,7 +287,7 @@ async function openLink() {
     await openScene(FIRST);
     return tell(`This link names a scene that is not here: ${link.path}`, false);
   }
-  // What was typed under this name stays a text of its own.
+  // Text typed under this name is kept as a file of its own.
   const draft = project.draft(link.path);
   if (draft !== null && draft !== link.text) project.keep(project.free(OWN + link.path.split('/').pop()), draft);
   project.keep(link.path, link.text);

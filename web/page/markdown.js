@@ -1,6 +1,6 @@
 // What `glint lsp` writes in Markdown (lsp/markdown.h), as HTML: paragraphs, fenced code, **strong**, `code`, and characters that a
-// backslash keeps. It takes the place of `marked` in the language client, of whose 38 KB nothing else would be used. Everything
-// else is text: a scene may come from a link.
+// backslash keeps. It replaces `marked` in the language client, of whose 38 KB nothing else would be used. Everything else is plain text: a
+// scene may come from a link.
 
 const escape = (text) => text.replace(/[&<>"]/g, (char) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[char]);
 

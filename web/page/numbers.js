@@ -1,5 +1,5 @@
-// The numbers of the entry that the cursor is in, as sliders. They are found in the text's syntax tree, in either spelling, and
-// written back into the text; their ranges are what the language server says of them.
+// The numbers of the entry that the cursor is in, as sliders. They are found in the text's syntax tree, in either spelling, and written
+// back into the text; their ranges come from the language server.
 import { ensureSyntaxTree } from '@codemirror/language';
 import { LSPPlugin } from '@codemirror/lsp-client';
 
@@ -48,7 +48,7 @@ function addXml(state, element, label, found) {
   }
 }
 
-// Of the entry at the cursor: the innermost map, item of a list or element that has numbers, but not the whole scene.
+// The numbers of the entry at the cursor: the innermost map, list item or element that has numbers, but not the whole scene.
 function findNumbers(state) {
   const tree = ensureSyntaxTree(state, state.doc.length, 50);
   if (!tree) return [];
@@ -74,7 +74,7 @@ function findNumbers(state) {
 
 // ---- their ranges
 
-// Of what a hover says of a number: 'from 0 to 1', 'greater than 0 and at most 360', '1 or more'.
+// The range in a hover's text about a number: 'from 0 to 1', 'greater than 0 and at most 360', '1 or more'.
 function rangeOf(hover) {
   const limit = (expression) => {
     const found = expression.exec(hover);
@@ -87,7 +87,7 @@ function rangeOf(hover) {
   };
 }
 
-// From where to where a slider goes: the whole range where it is not much wider than the value, else what is around the value.
+// The ends of a slider: the whole range if it is not much wider than the value, else a range around the value.
 export function reach({ least = -Infinity, most = Infinity }, value, text) {
   const wide = 4 * Math.max(Math.abs(value), 0.25);
   const whole = Number.isInteger(value) && !text.includes('.') && Math.abs(value) >= 4;

@@ -1,16 +1,16 @@
-// The picture of a scene, coarse to fine, by the reference tracer in a worker. What is drawn last is, byte for byte, the file
-// that `glint render SCENE --device reference --as-file` writes; or, where there is a GPU, the whole picture is its own.
+// The picture of a scene, coarse to fine, by the reference tracer in a worker. The last pass equals, byte for byte, the file that `glint
+// render SCENE --device reference --as-file` writes; or, if there is a GPU, the GPU draws the whole picture.
 import { Cancelled } from './glint.js';
 
 const PARTS = [8, 4, 2, 1]; // of width and height, with one sample per pixel
 const LEAST = 24; // pixels across: coarser ones show nothing
 const SHORT_MS = 60; // a pass that ends soon is waited for
-const LONG_MS = 2000; // one of a GPU that takes longer is given up, and what its compiler has made with it
+const LONG_MS = 2000; // a pass on a GPU that takes longer is given up, together with what its compiler has made
 const GPU_MS = 60000; // for a GPU's compiler, and its picture
 
 const TRACER = ['--device', 'reference', '--as-file', '--no-cache', '--quiet', '--color', 'never'];
 
-// Of what `glint inspect --ir` prints.
+// Reads what `glint inspect --ir` prints.
 function understood(text) {
   const number = (name, normal, part = 'image') => {
     const found = new RegExp(`^${part}:(?:\\n +.*)*?\\n +${name}: (\\d+)$`, 'm').exec(text);
@@ -26,7 +26,7 @@ export class Picture {
   constructor({ glint, canvas, told, seen }) {
     Object.assign(this, { glint, canvas, told, seen });
     this.camera = '';
-    this.settings = []; // options that are tried instead of the scene's own
+    this.settings = []; // options to try instead of the scene's own
     this.scene = null; // what was understood last
     this.wanted = null;
     this.began = 0;
@@ -71,7 +71,7 @@ export class Picture {
     }
   }
 
-  // The whole picture by WebGPU; what it was not drawn for, '' if it was.
+  // Draws the whole picture by WebGPU; returns why it was not drawn, '' if it was.
   async byGpu(path, camera, scene) {
     const began = (this.gpuBegan = performance.now());
     const late = setTimeout(() => this.gpu.died('the GPU did not answer'), GPU_MS);
@@ -85,7 +85,7 @@ export class Picture {
       return '';
     } catch (error) {
       if (error instanceof Cancelled) throw error;
-      this.gpu = null; // its worker has begun anew; what ended once is not asked again
+      this.gpu = null; // its worker has started again; one that failed once is not asked again
       return error.message;
     } finally {
       clearTimeout(late);

@@ -1,4 +1,4 @@
-// The files of the scene that is shown, and what was typed: no choice of another scene, and no closed tab, loses a text.
+// The files of the scene that is shown, and typed texts: choosing another scene or closing the tab loses none.
 const DRAFT = 'glint.draft.';
 
 export class Project {
@@ -6,7 +6,7 @@ export class Project {
     this.files = new Map(); // by paths in the scene's folder: text, or bytes
     this.path = ''; // of the scene
     this.own = new Set(); // files that the user brought
-    this.kept = new Map(); // texts that were typed, where the browser keeps nothing
+    this.kept = new Map(); // typed texts, if the browser stores nothing
   }
 
   // ---- scenes that ship
@@ -26,7 +26,7 @@ export class Project {
     return null;
   }
 
-  // What the scene and its files hold, fetched where it is not there yet.
+  // Opens the scene and its files, fetching those that are not there yet.
   async open(path) {
     const scene = this.find(path);
     const wanted = [path, ...(scene ? scene.files : [])].filter((name) => !this.files.has(name));
@@ -64,7 +64,7 @@ export class Project {
     try {
       localStorage.setItem(DRAFT + path, text);
     } catch {
-      // It is kept as long as the page is open.
+      // Then it is kept as long as the page is open.
     }
   }
 
@@ -73,7 +73,7 @@ export class Project {
     try {
       localStorage.removeItem(DRAFT + path);
     } catch {
-      // There is nothing.
+      // Nothing was stored.
     }
   }
 

@@ -1,17 +1,17 @@
 // What settings cost and what error they cause: the open scene drawn small by the reference tracer, with several numbers of samples and
-// depths, each against one of many samples without a limit of depth; and the front of those that are worth choosing, beside a slider.
+// depths, each compared with one of many samples without a depth limit; and the Pareto front of settings, beside a slider.
 import { Cancelled } from './glint.js';
 
 const SAMPLES = [1, 4, 16];
 const DEPTHS = [0, 1, 2, 3, 4, 6, 10, 16];
-const TRUTH = 64; // samples of what the others are compared with
-const BUDGET_MS = 15000; // for what is wanted, which is meant to take a third of it
-const SHORT_MS = 20; // what takes less is drawn once more, as clocks and caches count
+const TRUTH = 64; // samples of the picture that the others are compared with
+const BUDGET_MS = 15000; // for all measurements, which are meant to take a third of it
+const SHORT_MS = 20; // a picture that takes less is drawn again: clocks and caches matter
 const SIZE = { first: 48, most: 128 }; // pixels across
-const LIMITED = ['--as-file']; // as a device would draw it; without, rays are followed to their end
+const LIMITED = ['--as-file']; // draws as a device would; without it, rays are followed to their end
 const PLAIN = ['--device', 'reference', '--no-cache', '--quiet', '--stats=json', '--color', 'never'];
 
-// Those of `points` that no other beats in both, the fastest first.
+// The points that no other beats in both time and error, the fastest first.
 export function frontOf(points) {
   const front = [];
   for (const one of [...points].sort((a, b) => a.ms - b.ms || a.error - b.error))
@@ -19,8 +19,9 @@ export function frontOf(points) {
   return front;
 }
 
-// {points, left, size}: of each setting {samples, depth, ms, error}, error being the mean of FLIP and ms what a whole picture takes; `left` counts
-// those for which there was no time, `size` is that of the small pictures. `run` is Glint's, `told(words)` says how far it is.
+// {points, left, size}: for each setting {samples, depth, ms, error}, where error is the mean of FLIP and ms the time of a whole picture;
+// `left` counts settings for which there was no time, `size` is that of the small pictures. `run` is Glint's; `told(words)` reports the
+// progress.
 export async function measure({ run, path, scene, camera, told }) {
   const heightOf = (width) => Math.max(8, Math.round((width * scene.height) / scene.width));
   const chosen = camera ? ['--camera', camera] : [];
@@ -43,7 +44,7 @@ export async function measure({ run, path, scene, camera, told }) {
   // No ray goes deeper than the deepest: a larger limit changes nothing.
   const most = Math.min(scene.depth, deepest);
   const depths = [...DEPTHS.filter((depth) => depth < most), most];
-  // As large as fits: all settings together take about as long as so many samples.
+  // As large as fits in the time: all settings together take about as long as this many samples.
   const all = TRUTH + depths.length * SAMPLES.reduce((sum, samples) => sum + samples, 0);
   const width = Math.round(Math.min(SIZE.most, scene.width, Math.max(SIZE.first / 2, SIZE.first * Math.sqrt((BUDGET_MS / 3) / (Math.max(one, 1) * all)))));
   told('Measuring: the picture to compare with');
@@ -58,7 +59,7 @@ export async function measure({ run, path, scene, camera, told }) {
     if (ms < SHORT_MS) ms = Math.min(ms, (await draw(width, samples, limited(depth), '/point.pfm')).ms);
     points.push({ samples, depth, ms, error: await errorOf('/point.pfm') });
   }
-  // What a whole picture takes, by its pixels.
+  // The time of a whole picture, in proportion to its pixels.
   const pixels = (scene.width * scene.height) / (width * heightOf(width));
   for (const point of points) point.ms *= pixels;
   return { points, left: wanted.length - points.length, size: sizeOf(width) };
@@ -97,9 +98,8 @@ function chart(svg, points, front, at) {
 }
 
 export class Study {
-  // `$`: the elements of the page by their ids; `worker()`: a Glint of its own; `scene()`: {path, camera, width, height, depth} of now, or null;
-  // `choose(words, draws)`: these options more from now on, and another
-  // picture if it should; none, as the scene says.
+  // `$`: the elements of the page by their ids; `worker()`: a Glint of its own; `scene()`: {path, camera, width, height, depth} of now, or
+  // null; `choose(words, draws)`: adds these options from now on, and draws again if `draws`; no words: as the scene says.
   constructor({ $, worker, scene, choose }) {
     Object.assign(this, { $, worker, scene, choose });
     this.glint = null;
@@ -108,7 +108,7 @@ export class Study {
     $('asis').onclick = () => this.pick(-1);
   }
 
-  // The text has changed: what was measured is of another scene.
+  // The text has changed: the measurements are of another scene.
   forget() {
     this.stop('');
     this.choose([], false);

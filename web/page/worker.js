@@ -1,4 +1,4 @@
-// glint.wasm in a worker of its own, over files that exist only in memory. Takes messages:
+// glint.wasm in a worker of its own, with files that exist only in memory. Takes messages:
 //   {module, gpu}               first: the compiled module, shared by all workers; `gpu`: the one that draws by WebGPU (glint-gpu.js)
 //   {files, gone}               new or changed files by their paths in the scene's folder, and paths that went away
 //   {id, words, take}           a command; answers {id, status, out, err, files}, with the files named in `take`, if there
@@ -6,7 +6,7 @@
 // {id, died} answers a command that ended the module itself (memory, stack): this worker is of no use after it.
 'use strict';
 const FOLDER = '/scene';
-const IDLE_MS = 400; // how long nobody must have typed before what takes longer is checked
+const IDLE_MS = 400; // without typing, before the slower checks run
 
 let glint = null;
 let server = 0;
@@ -16,7 +16,7 @@ const printed = { out: [], err: [] };
 
 let draws = false; // by WebGPU
 
-// A kernel, of which only those that are used are fetched.
+// Fetches a kernel; only kernels that are used are fetched.
 async function kernel(name) {
   const response = await fetch(`${name}.wgsl`);
   if (!response.ok) throw new Error(`${name}.wgsl: ${response.status} ${response.statusText}`);
@@ -30,7 +30,7 @@ function start(module, gpu) {
     kernel,
     instantiateWasm(imports, done) {
       if (draws) {
-        // Where these wait, so does the module: by JavaScript Promise Integration.
+        // While these wait, the module waits too: by JavaScript Promise Integration.
         for (const part of Object.values(imports))
           for (const [name, one] of Object.entries(part)) if (one.suspends) part[name] = new WebAssembly.Suspending(one);
       }

@@ -57,7 +57,7 @@ function pagesUnder(folder) {
   return sorted(found);
 }
 
-// contents.json says the order; a name that ends in '/' is all that is in a folder. What nobody listed comes under "More".
+// contents.json sets the order; a name that ends in '/' stands for all pages in a folder. Pages that are not listed come under "More".
 const every = ['README.md', 'CHANGELOG.md', 'CONTRIBUTING.md', ...pagesUnder('docs')];
 const contents = JSON.parse(fs.readFileSync(path.join(here, 'contents.json'), 'utf8')).map(([title, files]) => ({
   title,
@@ -67,7 +67,7 @@ const listed = new Set(contents.flatMap(({ files }) => files));
 contents.find(({ title }) => title === 'More').files.push(...every.filter((file) => !listed.has(file)));
 for (const { files } of contents) files.forEach(addPage);
 
-// What a link in `file` leads to, as seen from the page at `address`. Files that are not pages come along; folders are listed.
+// The target of a link in `file`, relative to the page at `address`. Files that are not pages are copied; folders are listed.
 const relative = (address, target) => path.posix.relative(path.posix.dirname(address), target) || path.posix.basename(target);
 function linker(file, address) {
   return (href) => {
@@ -162,7 +162,7 @@ while (queue.length) {
   });
   made.set(file, page);
   titles.set(file, file === 'README.md' ? 'What glint is' : page.title);
-  // Each code has a page of its own, which is what is found.
+  // Each code has a page of its own; the search finds that.
   index(address, page.title, file === 'docs/codes.md' ? page.sections.filter(({ id }) => !codeOfAnchor.has(id)) : page.sections);
 }
 

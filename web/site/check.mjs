@@ -1,5 +1,5 @@
-// Follows every link of a made site: node check.mjs SITE MODULES. A file or an anchor that is not there, an address from the root of a
-// server, and what the page would fetch from elsewhere are each reported; the status is then 1. The playground has tests of its own.
+// Follows every link of a made site: node check.mjs SITE MODULES. Reports missing files and anchors, addresses from the root of a server,
+// and anything that a page would fetch from elsewhere; the status is then 1. The playground has tests of its own.
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
 import path from 'node:path';

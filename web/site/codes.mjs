@@ -1,5 +1,5 @@
-// A page for each code of a message: what docs/codes.md says of it, which is made from the table that `glint explain` reads, the rule
-// of docs/lint.md, and the cases of tests/invalid with what glint says of them, exactly.
+// A page for each code of a message: its text in docs/codes.md (made from the table that `glint explain` reads), its rule in docs/lint.md,
+// and the cases of tests/invalid with glint's exact messages.
 import fs from 'node:fs';
 import path from 'node:path';
 
@@ -19,7 +19,7 @@ function textOf(file) {
     const text = new TextDecoder('utf-8', { fatal: true }).decode(fs.readFileSync(file));
     return /[\u0000-\u0008\u000b-\u001f\u007f]/.test(text) || text.split('\n').length > LINES_MOST || text.split('\n').some((line) => line.length > 200) ? null : text;
   } catch {
-    return null; // what is not UTF-8 cannot be shown, nor what is not there
+    return null; // a file that is missing or not UTF-8 cannot be shown
   }
 }
 

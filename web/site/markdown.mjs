@@ -4,7 +4,7 @@ import path from 'node:path';
 import zlib from 'node:zlib';
 
 const ALIASES = { sh: 'bash', elisp: 'lisp' };
-// A text that reads a file cannot be opened by itself.
+// A text that reads a file cannot be opened alone.
 const READS_A_FILE = /\.(obj|mtl|ply|stl|gltf|glb|png|jpe?g|webp|hdr|exr|ya?ml|xml)\b/i;
 
 export const escapeHtml = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
@@ -41,8 +41,8 @@ export class Markdown {
     return playFragment(`${name}.glint.${language}`, text);
   }
 
-  // {title, html, headings: [{level, id, text}], sections: [{id, title, text}]} of the file `source`; `link(href)` gives the site's
-  // address of what a link of the file names, `playground` is the address of the playground as seen from the page.
+  // {title, html, headings: [{level, id, text}], sections: [{id, title, text}]} of the file `source`; `link(href)` returns the site's
+  // address for a link in the file, `playground` is the playground's address relative to the page.
   page(text, { source, link, playground, anchors = () => '' }) {
     const env = {};
     const tokens = this.parser.parse(text, env);
@@ -104,7 +104,7 @@ export class Markdown {
   }
 }
 
-// What stands in a list of tokens as HTML.
+// The HTML in a list of tokens.
 function raw(content) {
   return { type: 'html_block', content, attrs: null, children: null, hidden: false, nesting: 0, tag: '', level: 0 };
 }

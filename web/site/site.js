@@ -1,4 +1,4 @@
-// What pages of the documentation do besides being read: the search, and the playground inside a page. Works from a folder on the disk too,
+// The active parts of the documentation's pages: the search, and the playground inside a page. They also work from a folder on the disk,
 // where a browser loads scripts but fetches nothing.
 'use strict';
 const root = document.body.dataset.root;

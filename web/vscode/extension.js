@@ -10,7 +10,7 @@ let client = null;
 let glint = null;
 let starting = null;
 
-// As the server decides it: by the name, or the word in the text.
+// Decides as the server does: by the name, or by the word in the text.
 function isScene(document) {
   if (!LANGUAGES.includes(document.languageId) && !/\.glint\.[^./]+$/.test(document.uri.path)) return false;
   return /\.glint\.[^./]+$|\/\.glintrc\.yaml$/.test(document.uri.path) || document.getText().includes('glint');

@@ -1,13 +1,14 @@
-// A worker with glint in it, as the page has it (web/page/glint.js), whose files are the editor's.
+// A worker that runs glint, like the page's (web/page/glint.js), with the editor's files.
 import { Glint } from '../page/glint.js';
 import { answer } from './places.js';
 
-const DEATHS_MOST = 3; // of workers that said nothing: it is not the scene that ends them
+const DEATHS_MOST = 3; // of workers that sent nothing: then the scene is not the cause
 const KEPT_MOST = 1 << 28; // bytes of files
 
 export class EditorGlint extends Glint {
-  // `address`: of worker.js; `texts()`: documents that are open, by path, for a worker that starts; `log(line)`; `folder`: where commands run.
-  // `keeps`: what was read is kept until put() names it as gone, for the next worker; what is cancelled leaves none.
+  // `address`: of worker.js; `texts()`: documents that are open, by path, for a worker that starts; `log(line)`; `folder`: where commands
+  // run. `keeps`: files that were read are kept until put() names them as gone: a cancelled command ends its worker, and the next one needs
+  // them.
   constructor({ module, address, texts, log, folder, keeps = false }) {
     super(module, texts, false, address);
     this.log = log;
@@ -51,7 +52,7 @@ export class EditorGlint extends Glint {
 
   put(files, gone = []) {
     for (const path of gone) {
-      // What was not there is looked for again too, as a folder may have come.
+      // Files that were missing are looked for again too, because a folder may have been added.
       for (const [one, { bytes, folder }] of this.kept) {
         if (one !== path && !one.startsWith(`${path}/`) && (bytes || folder)) continue;
         this.keptBytes -= bytes?.length || 0;
@@ -61,12 +62,12 @@ export class EditorGlint extends Glint {
     super.put(files, gone);
   }
 
-  // Whether what was drawn can depend on the file.
+  // Whether the picture can depend on the file.
   knows(path) {
     return this.kept.has(path) || [...this.kept.keys()].some((one) => one.startsWith(`${path}/`) || path.startsWith(`${one}/`));
   }
 
-  // As a worker that speaks the protocol: what the language client wants to be given.
+  // This as a worker that speaks the protocol, for the language client.
   port() {
     const port = { postMessage: (message) => this.send(message), addEventListener() {}, onmessage: null };
     this.subscribe((message) => port.onmessage({ data: message }));

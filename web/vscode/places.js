@@ -18,7 +18,7 @@ export function uriOf(path) {
   return vscode.Uri.from({ scheme, authority: authority === '-' ? '' : decodeURIComponent(authority), path: `/${rest.join('/')}` });
 }
 
-// As the protocol writes them. A document that was never saved keeps its name.
+// URIs as the protocol writes them. A document that was never saved keeps its name.
 export const toProtocol = (uri) => (uri.scheme === 'untitled' ? uri.toString() : vscode.Uri.from({ scheme: 'file', path: pathOf(uri) }).toString());
 export const fromProtocol = (text) => {
   const uri = vscode.Uri.parse(text);
@@ -37,7 +37,7 @@ async function read(path, log) {
     }
     return { path, bytes: await vscode.workspace.fs.readFile(uri) };
   } catch {
-    return { path }; // it is not there, or not for us
+    return { path }; // it is missing, or we may not read it
   }
 }
 

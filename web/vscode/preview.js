@@ -42,7 +42,7 @@ class Preview {
       }),
       webview.onDidReceiveMessage((message) => this.take(message)),
       vscode.workspace.onDidChangeTextDocument((event) => this.changed(event.document)),
-      // What was not saved is gone.
+      // Unsaved text is gone.
       vscode.workspace.onDidCloseTextDocument((document) => {
         this.glint.put({}, [pathOf(document.uri)]);
         this.draw();
@@ -69,7 +69,7 @@ class Preview {
   }
   touched(uri) {
     const path = pathOf(uri);
-    if (!this.glint.knows(path) || this.texts().some(([open]) => open === path)) return; // of those that are open, the text is known
+    if (!this.glint.knows(path) || this.texts().some(([open]) => open === path)) return; // the text of open documents is known
     this.glint.put({}, [path]);
     this.draw();
   }

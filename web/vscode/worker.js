@@ -1,5 +1,5 @@
-// glint.wasm in a worker of the editor. Its files are those of the editor, which are fetched as they are asked for: what the program looks
-// for and does not have is noted, the extension is asked for it, and what was under way is done again. Takes messages:
+// glint.wasm in a worker of the editor. Its files are the editor's, fetched on demand: a file that the program looks for and does not have
+// is noted, the extension is asked for it, and the work is done again. Takes messages:
 //   {module}                    first: the compiled module
 //   {lsp}                       a message of the language client; answers, in any number, {lsp}
 //   {folder}                    where commands run
@@ -11,7 +11,7 @@
 import createGlint from 'glint-module';
 
 const OWN = '/.glint'; // what commands write
-const IDLE_MS = 400; // how long nobody must have typed before what takes longer is checked
+const IDLE_MS = 400; // without typing, before the slower checks run
 
 let glint = null;
 const printed = { out: [], err: [] };
@@ -35,17 +35,17 @@ async function start(module) {
 
 // ---- the editor's files
 
-let placing = false; // it is this file that looks, not the program
-const known = new Set(); // paths that were answered for, there or not
-const listed = new Set(); // folders whose names are all there
-let files = new Set(); // what is to be asked for
+let placing = false; // this file does the lookup, not the program
+const known = new Set(); // paths that were answered, whether they exist or not
+const listed = new Set(); // folders whose names are all known
+let files = new Set(); // paths to ask for
 let folders = new Set();
-let answered = null; // resolves what waits for {have}
+let answered = null; // resolves the promise that waits for {have}
 
 const isOwn = (path) => path === OWN || path.startsWith(`${OWN}/`) || /^\/(dev|proc)(\/|$)/.test(path);
 const wanted = () => files.size + folders.size > 0;
 
-// What the file system is made of: MEMFS calls `lookup` for a name that it does not have.
+// The hook of the file system: MEMFS calls `lookup` for a name that it does not have.
 function watchFiles(FS) {
   const folder = FS.lookupPath(OWN).node.node_ops;
   const { lookup, readdir } = folder;
@@ -76,7 +76,7 @@ function write(path, content) {
   known.add(path);
 }
 
-// A file of which nobody knows more than its name, until it is opened.
+// A file of which only the name is known until it is opened.
 function name(path) {
   const { FS } = glint;
   if (known.has(path) || FS.analyzePath(path).exists) return;
@@ -122,13 +122,13 @@ function forget(paths) {
       remove(path);
       known.delete(path);
       listed.delete(parentOf(path));
-      // A folder that was not there may have come with it.
+      // A folder that was missing may have been added with it.
       for (let above = parentOf(path); above !== '/'; above = parentOf(above)) {
         if (glint.FS.analyzePath(above).exists) break;
         known.delete(above);
         listed.delete(parentOf(above));
       }
-      // Where a folder comes or goes, so does all below it.
+      // When a folder is added or removed, so is everything below it.
       for (const one of [...known].filter((below) => below.startsWith(`${path}/`))) {
         remove(one);
         known.delete(one);
@@ -138,7 +138,7 @@ function forget(paths) {
   });
 }
 
-// Asks for what was looked for; one question at a time.
+// Asks for the paths that were looked for; one question at a time.
 async function fetchFiles() {
   const want = { files: [...files], folders: [...folders] };
   files = new Set();
@@ -186,13 +186,13 @@ let server = 0;
 let soon = 0;
 let fetching = false;
 const documents = new Map(); // those that are open, as `didOpen` would have them now
-let held = new Map(); // findings that may not be so once files have come, by document
+let held = new Map(); // findings that may change once files have arrived, by document
 
 const pathOf = (uri) => decodeURIComponent(uri.replace(/^file:\/\//, ''));
 const tell = (method, params) => take(JSON.stringify({ jsonrpc: '2.0', method, params }));
 const take = (text) => glint.ccall('web_lsp_take', 'number', ['number', 'string'], [server, text]);
 
-// The offset of a place of the protocol, whose columns count as JavaScript does.
+// The offset of a protocol position, whose columns count as in JavaScript.
 function offsetOf(text, { line, character }) {
   const ends = /\r\n|\r|\n/g;
   let begin = 0;
@@ -239,7 +239,7 @@ function checked(idle) {
   }
 }
 
-// What a document belongs to is decided when it is opened: so it is opened again.
+// The scene of a document is decided when it is opened, so it is opened again.
 async function fetchForServer() {
   fetching = true;
   await fetchFiles();

@@ -1,5 +1,5 @@
-// Archives whose bytes depend on their files alone: zip(files, deflate), where `files` are [name, bytes], in this order, and `deflate(bytes)`
-// promises them as a raw stream of deflate. The date of all is the first that the format knows.
+// Archives whose bytes depend only on their files: zip(files, deflate), where `files` are [name, bytes], in this order, and
+// `deflate(bytes)` promises them as a raw deflate stream. All have the earliest date of the format.
 import zlib from 'node:zlib';
 
 const DATE = (1 << 5) | 1; // 1 January 1980

@@ -47,7 +47,7 @@ static int begin(struct bands_run *run, const char *number) {
     return CLI_SCENE;
 }
 
-// Numbers after the first of the list, or of all equal devices but the job's.
+// Begins the devices after the first in the list of numbers, or all that equal the job's, except that one.
 static int begin_all(struct bands_run *run) {
     struct cli *cli = run->r->cli;
     const char *wanted = cli_device_wanted(cli);

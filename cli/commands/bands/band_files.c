@@ -34,7 +34,7 @@ static struct image_texts texts_of(struct bands_run *run, enum image_format form
     return r->job.is_part ? (struct image_texts){0} : provenance_texts(&made, &r->cli->arena);
 }
 
-// `texts`: of the head; NULL: those of the whole picture.
+// `texts`: for the file's head; NULL: those of the whole picture.
 static int write_file(struct bands_run *run, const struct cli_output *output, const char *path,
                       const struct image_texts *texts) {
     const struct ir_image *image = run->r->job.session->image;
@@ -65,7 +65,7 @@ static bool are_streamed(const struct rendering *r) {
     return all;
 }
 
-// Some of the files need all pixels at once: all are written from them.
+// Some of the files need all pixels at once, so all files are written that way.
 static int write_at_once(struct bands_run *run) {
     struct rendering *r = run->r;
     const struct part_region *region = &run->work.bands.part.region;

@@ -18,14 +18,14 @@ struct bands_run {
     uint32_t gpu_count;
 };
 
-// The picture's files. A signal ends it: CLI_STOPPED.
+// Writes the picture's files. A signal ends it: CLI_STOPPED.
 int bands_write(struct bands_run *run);
-// Files of what is there, beside the picture's.
+// Writes files of the bands that are there, beside the picture's.
 int bands_write_partial(struct bands_run *run);
 
 // Whether --device names several: 'all', or numbers with commas between them.
 bool bands_spread(const struct cli *cli);
-// Has them begin, besides the job's: CLI_OK, or an exit code with an error printed.
+// Begins these devices, besides the job's: CLI_OK, or an exit code with an error printed.
 int bands_begin_devices(struct bands_run *run);
 
 #endif

@@ -1,5 +1,5 @@
-// A picture in bands: each is on the disk when the next one begins, so that a process needs memory for one,
-// and another can go on.
+// A picture in bands: each is on the disk before the next one begins, so a process needs memory for one, and
+// another process can go on.
 #include "cli/commands/bands/bands_run.h"
 #include "cli/device.h"
 #include "core/ranges.h"
@@ -12,7 +12,7 @@
 #include <string.h>
 
 enum {
-    WHOLE_PIXELS = 8 << 20, // more are in bands where nothing needs all at once: whole, each takes 18 bytes
+    WHOLE_PIXELS = 8 << 20, // larger ones are in bands if nothing needs them whole, at 18 bytes a pixel
 };
 
 // ---- whether
@@ -42,7 +42,7 @@ static const struct cli_output *first_file(const struct rendering *r) {
     return NULL;
 }
 
-// What needs all pixels at once; NULL: nothing of it is asked for.
+// What was asked for that needs all pixels at once; NULL: nothing.
 static const char *obstacle(const struct rendering *r) {
     const struct cli_options *o = &r->cli->options;
     if (cli_device_is_reference(r->cli))
@@ -82,7 +82,7 @@ static const struct cli_output *whole_output(const struct rendering *r) {
     return NULL;
 }
 
-// A picture that could be held as a whole, and need not be.
+// Whether a picture could be held as a whole but need not be.
 static bool saves_memory(const struct rendering *r) {
     const struct part_region *region = &r->job.part.region;
     return (uint64_t)region->width * region->height > WHOLE_PIXELS && !obstacle(r) && !whole_output(r) &&
@@ -150,7 +150,7 @@ static int begin_anew(struct bands_run *run, struct strbuf *error) {
     return CLI_FILE;
 }
 
-// A checkpoint that is there without --resume may be the work of hours: it is not written over.
+// Without --resume, an existing checkpoint may be the work of hours: it is not overwritten.
 static int go_on(struct bands_run *run, struct strbuf *error) {
     struct rendering *r = run->r;
     bool missing;
@@ -194,7 +194,7 @@ static int cannot_write(struct bands_run *run) {
     return CLI_FILE;
 }
 
-// What became of the devices.
+// Judges what became of the devices.
 static int judge_devices(struct bands_run *run, enum shot_status taken) {
     const struct gpu *failed = job_bands_failed(&run->work);
     const int status = taken == SHOT_DEVICE      ? render_failed(run->r, taken)

@@ -1,4 +1,4 @@
-// Pictures of a batch after tracing: encoded and written beside the next one's tracing.
+// Pictures of a batch after tracing: encoded and written while the next one is traced.
 #include "cli/commands/batch/batch_run.h"
 #include "cli/made.h"
 #include "diag/codes/command.h"
@@ -30,14 +30,14 @@ static void encode(void *context) {
             part_encode(&made->part, &made->files[i]);
         else
             image_encode(&made->image, format, made->display, &made->files[i]);
-        // The disk takes milliseconds a file: they are not the next picture's.
+        // The disk takes milliseconds per file, which must not delay the next picture.
         const str file = strbuf_view(&made->files[i]);
         made->errors[i] = made->files[i].failed ? 0 : cli_put_output(run->cli, made->job->paths[i], file);
     }
     batch_note_written(made);
 }
 
-// While the session is still that of this picture.
+// Call this while the session is still that of this picture.
 static struct image_texts texts_of(struct batch_run *run, enum image_format format) {
     const struct job *job = &run->outputs.job;
     const struct provenance made = job_provenance(job, format, render_coding(&run->cli->options, format));

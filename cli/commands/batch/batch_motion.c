@@ -53,6 +53,6 @@ int batch_take_all(struct cli *cli, const char *scene) {
     if (!motion.is_animated && motion.is_good)
         return batch_no_animation(cli, scene);
     b->all_frames = false;
-    b->last_frame = motion.is_animated ? motion.frames - 1 : 0; // rendering it tells its mistakes
+    b->last_frame = motion.is_animated ? motion.frames - 1 : 0; // rendering reports its mistakes
     return CLI_OK;
 }

@@ -18,7 +18,7 @@ static str scene_name(str path) {
     return str_slice(base, 0, end);
 }
 
-// What a file's name may contain.
+// Adds only what a file's name may contain.
 static void add_safe(struct strbuf *out, str text) {
     for (size_t i = 0; i < text.len; i++)
         strbuf_char(out, strchr("/\\ \t\"'[]{}*?", text.ptr[i]) ? '-' : text.ptr[i]);
@@ -70,7 +70,7 @@ static const char *with(struct cli *cli, const char *pattern, const char *more) 
     return arena_format(&cli->arena, "%.*s%s%s", stem, pattern, more, pattern + stem).ptr;
 }
 
-// Without -o all that differs is in the name; and --camera all adds the camera's name, as for one picture.
+// Without -o the name has everything that differs; --camera all adds the camera's name, as for one picture.
 static const char *pattern_of(const struct batch *batch, const struct cli_output *output) {
     const struct cli_batch *b = &batch->cli->options.batch;
     const struct cli_part *tile = &batch->cli->options.part;

@@ -22,7 +22,7 @@ enum {
 struct scene_of {
     const char *path;
     bool is_animated;
-    bool is_broken; // nobody knows whether it moves
+    bool is_broken; // it is not known whether it moves
     int32_t last;   // frame
 };
 
@@ -53,7 +53,7 @@ static int read_list(struct cli *cli, struct strbuf *text) {
     return CLI_FILE;
 }
 
-// A scene a line; empty lines and those that begin with '#' are none.
+// One scene per line; empty lines and those that begin with '#' are skipped.
 static int take_list(struct cli *cli, struct scenes *scenes) {
     struct strbuf text;
     strbuf_init(&text);
@@ -82,7 +82,7 @@ static int take_scenes(struct cli *cli, struct scenes *scenes) {
 
 // ---- settings of a frame
 
-// Where the values of --set end up: fills the braces of option `set`.
+// Fills the braces of --set option `set` with their values.
 static bool fill(struct batch *batch, uint32_t set, int32_t frame, str *out, bool *filled) {
     struct cli *cli = batch->cli;
     const str text = cli->options.sets.items[set];
@@ -107,7 +107,8 @@ static bool fill(struct batch *batch, uint32_t set, int32_t frame, str *out, boo
     return false;
 }
 
-// The frame's --set options, after them `values` of the sweep, and the frame of the scene's own animation.
+// Collects the frame's --set options, then `values` of the sweep, then the frame of the scene's own
+// animation.
 static bool take_sets(struct batch *batch, const struct scene_of *scene, const str *values,
                       struct batch_job *job, bool *moves) {
     struct cli *cli = batch->cli;
@@ -143,7 +144,7 @@ static void add_job(struct batch *batch, struct batch_job job) {
     *(struct batch_job *)ARENA_PUSH(&batch->cli->arena, &batch->jobs) = job;
 }
 
-// One for each camera of the scene. Where it has mistakes, one for all: rendering it tells them.
+// Adds one job for each camera of the scene. If the scene has mistakes, one for all: rendering reports them.
 static void add_all_cameras(struct batch *batch, struct batch_job job) {
     struct session session;
     struct session_options options = cli_session_options(batch->cli, job.scene);
@@ -198,7 +199,7 @@ static int refuse_count(struct batch *batch, const struct scenes *scenes) {
                      "these are more than %d pictures", JOBS_MAX);
 }
 
-// Frames of a scene that nothing moves would be one picture many times.
+// Frames of a scene in which nothing moves would be the same picture many times.
 static int refuse_still(struct batch *batch) {
     struct cli *cli = batch->cli;
     const int status = cli_usage(cli, cli_option_place(cli, "frames"),
@@ -246,7 +247,7 @@ static int add_grid(struct batch *batch, const struct scenes *scenes) {
 
 // ---- the scenes' own animations
 
-// `is_only`: what is wrong in its file ends all; of several scenes, rendering reports it, and goes on.
+// `is_only`: mistakes in its file end everything; with several scenes, rendering reports them and goes on.
 static int take_motion(struct batch *batch, struct scene_of *scene, bool is_only) {
     struct cli *cli = batch->cli;
     const struct cli_batch *b = &cli->options.batch;

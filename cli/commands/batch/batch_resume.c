@@ -1,9 +1,9 @@
-// --resume of many pictures: a checkpoint that says which of them are written, so that another process goes
-// on with the others.
+// --resume of many pictures: a checkpoint that says which of them are written, so another process can go on
+// with the others.
 //
 // It begins with lines of text, filled up to HEAD_BYTES: what the list is, by a hash, and how many pictures
-// it has. A slot for each picture follows, which is there once its files are, under their names: whatever
-// ends the process, a slot is there or not, by its seal.
+// it has. A slot for each picture follows, written once the picture's files have their names. However the
+// process ends, a slot is there or not, by its seal.
 #include "cli/commands/batch/batch_run.h"
 #include "core/hash128.h"
 #include "diag/codes/command.h"
@@ -125,8 +125,8 @@ static bool hash_files(const struct batch_run *run, const struct batch_job *job,
     return good;
 }
 
-// Whether the scene of a picture that is written still is what it was. The files of a scene are what may have
-// changed: settings and frame are in the list.
+// Whether the scene of a written picture is still the same. Only the scene's files can have changed: settings
+// and frame are in the list.
 static bool is_same_scene(struct batch_run *run, const struct batch_job *job, const struct slot *slot) {
     struct session session;
     struct session_options options = cli_session_options(run->cli, job->scene);
@@ -146,7 +146,7 @@ static bool is_same_scene(struct batch_run *run, const struct batch_job *job, co
     return key[0] == slot->scene[0] && key[1] == slot->scene[1];
 }
 
-// Takes the pictures that are written out of the list.
+// Removes the pictures that are written from the list.
 static int leave_written(struct batch_run *run) {
     struct batch *batch = &run->batch;
     const uint32_t count = batch->jobs.count;
@@ -157,7 +157,7 @@ static int leave_written(struct batch_run *run) {
         struct slot slot;
         uint64_t files;
         bool is_written = take_slot(run, job.number, &slot);
-        // Scenes of one name follow each other.
+        // Jobs of the same scene are consecutive.
         if (is_written && (!judged || strcmp(judged, job.scene) != 0)) {
             if (!is_same_scene(run, &job, &slot))
                 return refuse(run, "is of another scene than this one");

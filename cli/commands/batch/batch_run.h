@@ -1,5 +1,5 @@
-// One batch while it runs: what is shown, what is read for the next job, what is encoded of the last one.
-// Private to cli/batch.
+// One batch while it runs: what is shown, what is read for the next job, and what is encoded for the last
+// one. Private to cli/batch.
 #ifndef GLINT_CLI_COMMANDS_BATCH_BATCH_RUN_H
 #define GLINT_CLI_COMMANDS_BATCH_BATCH_RUN_H
 
@@ -18,7 +18,7 @@ struct batch_made {
     struct image image;
     bool is_faulty;           // some of its pixels are
     uint64_t scene[2];        // hash of its scene
-    struct spool *checkpoint; // that gets it once its files are there; NULL: none
+    struct spool *checkpoint; // gets it once its files are there; NULL: none
     struct image_display display;
     struct strbuf *files;      // by output; one for a film
     int *errors;               // by output: errno of writing it, or 0
@@ -66,27 +66,28 @@ struct batch_run {
     struct live_loaded pending; // read, and not yet shown: --skip-done may need nothing of it
     struct batch_counts counts;
     const struct batch_job *first_failed;
-    int worst; // exit code of those that failed
-    // Findings that were reported: of which scene, load, and how many.
+    int worst; // the worst exit code of those that failed
+    // Findings that were reported: for which scene and load, and how many.
     const char *told_scene;
     uint32_t told_load, told_count;
     bool is_load_good, is_pending;
-    // What part of a job's picture is rendered: planned once for each, as mistakes are reported.
+    // The part of a job's picture to render: planned once per job, because planning reports mistakes.
     uint32_t planned; // 1 + the job's number; 0: none
     int plan_status;
 };
 
 // batch_made.c: pictures after tracing
 void batch_encode(struct batch_run *run, struct batch_made *made);
-// Waits until it is encoded and written; a film or a sheet gets it now. An exit code; its job is then NULL.
+// Waits until the picture is encoded and written; a film or a sheet gets it now. Returns an exit code;
+// made->job is then NULL.
 int batch_write(struct batch_run *run, struct batch_made *made);
 int batch_write_sheet(struct batch_run *run);
 // batch_resume.c: all do nothing without --resume
-// Once the device is open: takes the pictures that are written out of the list, which may be empty then. An
+// Once the device is open: removes the pictures that are written from the list, which may then be empty. An
 // exit code.
 int batch_resume(struct batch_run *run);
-// While the session is still that of this picture; when its files are there, on the thread that wrote them;
-// and whether the checkpoint could be written, as an exit code.
+// In turn: call it while the session is still that of this picture; call it when its files are there, on the
+// thread that wrote them; whether the checkpoint could be written, as an exit code.
 void batch_note_scene(struct batch_run *run, struct batch_made *made);
 void batch_note_written(const struct batch_made *made);
 int batch_judge_checkpoint(struct batch_run *run);

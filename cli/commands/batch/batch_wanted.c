@@ -21,7 +21,7 @@ bool batch_is_wanted(const struct cli *cli) {
     for (uint32_t i = 0; i < cli->options.outputs.count; i++)
         film |= strcmp(cli->options.outputs.items[i].path, "-") != 0 &&
                 batch_film_of(cli->options.outputs.items[i].path) != BATCH_NO_FILM;
-    // Cameras that are rendered one by one would not be known when another process goes on.
+    // If cameras were rendered one by one, another process that goes on would not know which are done.
     film |= cli->options.part.resume && str_equal(cli->options.camera, STR("all"));
     return b->has_frames || b->sweeps.count || b->list || b->montage || cli->operand_count > 1 || film;
 }

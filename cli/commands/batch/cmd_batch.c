@@ -1,7 +1,7 @@
 // glint render of many pictures: frames, a sweep, several scenes, a film.
 //
-// One session, one device, one store of meshes and trees for all (render/live). While a picture is traced,
-// the next scene is read and the last picture encoded, each on one more thread.
+// All share one session, one device, and one store of meshes and trees (render/live). While a picture is
+// traced, the next scene is read and the last picture encoded, each on a thread of its own.
 #include "cli/commands/batch/batch_run.h"
 #include "cli/commands/commands.h"
 #include "cli/device.h"
@@ -132,7 +132,7 @@ static bool is_other_load(const struct batch_run *run, uint32_t job) {
 
 // ---- one picture
 
-// Warnings and notes are reported once for a scene, and again where there are others.
+// Warnings and notes are reported once per scene, and again if they differ.
 static void tell_findings(struct batch_run *run, const struct batch_job *job, bool failed) {
     struct session *session = live_findings(&run->live);
     if (!session)
@@ -153,7 +153,7 @@ static void drop_pending(struct batch_run *run) {
     run->is_pending = false;
 }
 
-// The next scene, which is shown once a picture of it is rendered.
+// Takes the next scene, which is shown once a picture of it is rendered.
 static void take_loaded(struct batch_run *run, uint32_t number) {
     if (!is_other_load(run, number))
         return;
@@ -164,7 +164,7 @@ static void take_loaded(struct batch_run *run, uint32_t number) {
     run->counts.loads++;
 }
 
-// Whether a picture shows the scene of the one before, in the frame after its own.
+// Whether a picture shows the scene of the previous one, in the next frame.
 static bool is_next_frame(const struct batch_run *run, uint32_t number) {
     const struct batch_job *job = &run->batch.jobs.items[number];
     if (number == 0 || !job->has_frame)
@@ -196,7 +196,7 @@ static enum live_state show(struct batch_run *run, uint32_t number) {
     return state;
 }
 
-// The camera of this name; IR_NO_INDEX: there is none, which showing it reports.
+// The camera of this name; IR_NO_INDEX: there is none, which is reported when it is to be shown.
 static uint32_t camera_of(const struct session *session, str name) {
     const struct ir_cameras *cameras = &session->scene->cameras;
     for (uint32_t i = 0; i < cameras->count; i++)
@@ -291,7 +291,7 @@ static int render_one(struct batch_run *run, uint32_t number, struct batch_made 
     }
     const int status = state == LIVE_SHOWN ? trace(run, job, made) : broken_status(run);
     tell_findings(run, job, status != CLI_OK);
-    // A picture with faulty pixels is written, and failed: as by itself.
+    // A picture with faulty pixels is written and counts as failed, like a single picture.
     made->is_faulty = status != CLI_OK;
     if (made->job)
         batch_encode(run, made);

@@ -117,7 +117,7 @@ static int no_ffmpeg(struct film *film, int error) {
     return CLI_FILE;
 }
 
-// What ffmpeg writes to: beside the film, with its ending.
+// The file that ffmpeg writes to: beside the film, with its ending.
 static char *temporary_name(const char *path) {
     const char *dot = strrchr(path, '.');
     const size_t size = strlen(path) + 40;
@@ -130,11 +130,11 @@ static char *temporary_name(const char *path) {
 static const char *const mp4_words[] = {"-c:v", "libx264", "-crf", "16", "-movflags", "+faststart", NULL};
 static const char *const webm_words[] = {"-c:v", "libvpx-vp9", "-crf", "20", "-b:v", "0", NULL};
 static const char *const gif_words[] = {NULL};
-// Of all but a GIF, which is neither BT.709 nor of a limited range.
+// For all kinds but GIF, which has neither BT.709 nor a limited range.
 static const char *const bt709_words[] = {
     "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv", NULL};
 enum {
-    WORDS_MOST = 48, // of the command, with the NULL at its end
+    WORDS_MOST = 48, // in the command, with the NULL at its end
 };
 
 static const char *const *coding_words(const char *path) {
@@ -154,7 +154,7 @@ static const char *filter_of(const struct film *film) {
                  "yuv420p";
 }
 
-// After the last of `words`; NULL ends both lists.
+// Appends after the last of `words`; NULL ends both lists.
 static void append_words(const char *words[WORDS_MOST], const char *const *more) {
     size_t count = 0;
     while (words[count])
@@ -192,7 +192,7 @@ static int start_ffmpeg(struct film *film) {
     fcntl(ends[0], F_SETFD, FD_CLOEXEC);
     fcntl(ends[1], F_SETFD, FD_CLOEXEC);
     fcntl(film->said, F_SETFD, FD_CLOEXEC);
-    // Ctrl-C is for glint, which then ends ffmpeg.
+    // Ctrl-C goes to glint, which then ends ffmpeg.
     const int error =
         spawn(&film->child, words, &(struct spawn_streams){ends[0], film->said, film->said}, true);
     close(ends[0]);
@@ -229,7 +229,7 @@ static str last_lines(struct film *film) {
     return str_slice(said, at, said.len);
 }
 
-// Whether ffmpeg is in the PATH; not in what the frames take.
+// Whether ffmpeg is in the PATH; this does not count as time of the frames.
 static int find_ffmpeg(struct film *film) {
     str path = str_from(getenv("PATH"));
     if (sandbox_entered()) {
@@ -249,7 +249,7 @@ static int find_ffmpeg(struct film *film) {
 
 static int put_ffmpeg(struct film *film, str bytes) {
     const int error = output_descriptor(film->pipe, bytes.ptr, bytes.len);
-    film->is_deaf = error == EPIPE; // why, film_end says in ffmpeg's words
+    film->is_deaf = error == EPIPE; // film_end says why, in ffmpeg's words
     return error == EPIPE ? CLI_FILE : error ? cannot_write(film, error) : CLI_OK;
 }
 

@@ -16,7 +16,7 @@ static int engine_of(struct cli *cli) {
     return -1;
 }
 
-// 'status' takes no option of a plan: what a farm renders is decided.
+// 'status' takes no options of a plan: what a farm renders is already decided.
 static int status_of(struct cli *cli) {
     for (const struct option_row *row = NULL; (row = cli_next_option(cli->command, row)) != NULL;)
         if (row->commands[0] != '*' && strcmp(row->name, "format") != 0 &&

@@ -20,7 +20,7 @@ extern const char *const farm_engines[]; // NULL ends them
 struct farm_pilot {
     uint32_t frames, width, height; // that were measured, and their size in pixels
     double start_s;                 // from the start of the program to the first scene
-    double load_s;                  // of a frame before it is traced
+    double load_s;                  // per frame, before it is traced
     double picture_s;               // tracing the whole picture
 };
 
@@ -31,12 +31,12 @@ struct farm_plan {
     uint32_t frames, tiles, chunk, tasks;
     const char *root;   // absolute: the folder that the other paths are relative to
     const char *scene;  // that tasks render
-    const char *output; // pattern of pictures: frame_name, where there are frames
-    const char *part;   // what a part's name has before its tile's number and ".part"; NULL: one tile
+    const char *output; // pattern of pictures' names, for frame_name if there are frames
+    const char *part;   // a part's name before the tile's number and ".part"; NULL: one tile
     const char *folder; // of plan, script and logs; NULL: the script goes to standard output
     struct farm_pilot pilot;
     bool is_measured;
-    struct temporary made; // the folder, where it was not there before
+    struct temporary made; // the folder, if farm_begin made it
 };
 
 // farm_plan.c: the plan that the command line asks for, but for its chunk. CLI_OK, or an exit code with
@@ -46,9 +46,10 @@ int farm_plan_make(struct cli *cli, struct farm_plan *plan);
 int farm_begin(struct cli *cli, struct farm_plan *plan);
 // Whether the tasks' logs may be written, once it is known how many there are. An exit code.
 int farm_judge_logs(struct cli *cli, const struct farm_plan *plan);
-// The folder stays, or, after an error, goes if farm_begin made it. The plan stays where it is between them.
+// Keeps the folder or, after an error, removes it if farm_begin made it. The plan must not be moved between
+// the two calls.
 void farm_end(struct farm_plan *plan, int status);
-// farm_pilot.c: whether the scene can be rendered so, without a device. An exit code.
+// farm_pilot.c: whether the scene can be rendered this way, checked without a device. An exit code.
 int farm_check(struct cli *cli, struct farm_plan *plan);
 // Renders small pictures of some frames, and chooses the chunk. An exit code.
 int farm_measure(struct cli *cli, struct farm_plan *plan);
@@ -58,7 +59,7 @@ void farm_write_tasks(const struct cli_options *options, const struct farm_plan 
 void farm_write_engine(const struct cli_options *options, const struct farm_plan *plan, struct strbuf *out);
 // A word for a shell of POSIX, in quotes. It has no control characters.
 void farm_quote(struct strbuf *out, const char *word);
-// farm_engine.c: all of it.
+// farm_engine.c: the whole script.
 void farm_write_script(struct cli *cli, const struct farm_plan *plan, struct strbuf *out);
 const char *farm_script_name(enum farm_engine engine);
 // farm_file.c: the plan as a file of the folder, and back.
@@ -68,7 +69,7 @@ int farm_load(struct cli *cli, const char *folder, struct farm_plan *plan);
 // farm_save did not write it.
 #define FARM_PLAN_HEAD "glint farm 1\n"
 bool farm_plan_read(char *text, struct farm_plan *plan);
-// A picture's name in a frame, and that of a part.
+// The name of a frame's picture, and that of a part.
 const char *farm_picture(struct cli *cli, const struct farm_plan *plan, int32_t frame);
 const char *farm_part(struct cli *cli, const struct farm_plan *plan, int32_t frame, uint32_t tile);
 // farm_status.c

@@ -1,4 +1,4 @@
-// The plan as a file of its folder: lines of a word and its value, as the head of a part has them.
+// The plan as a file of its folder: each line is a word and its value, as in the head of a part.
 #include "cli/commands/farm/farm.h"
 #include "cli/commands/rendering.h"
 #include "cli/made.h"
@@ -61,7 +61,7 @@ int farm_judge_logs(struct cli *cli, const struct farm_plan *plan) {
     return status;
 }
 
-// Without frames each task is given the name of its part; frames' names are judged by the tasks.
+// Without frames, each task gets the name of its part; names of frames are judged by the tasks.
 static int judge_parts(struct cli *cli, const struct farm_plan *plan) {
     int status = CLI_OK;
     for (uint32_t i = 1; i <= plan->tiles && status == CLI_OK && plan->part && !plan->has_frames; i++)

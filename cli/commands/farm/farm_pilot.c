@@ -1,6 +1,6 @@
 // How long a task takes, measured: small pictures of the first, the middle and the last frame, as a task
-// would make them. The time of a pixel, with all its samples, is that of the whole picture; where a small
-// picture is over at once, a larger one is measured.
+// would make them. A pixel with all its samples is assumed to take as long in the whole picture; if a small
+// picture is done at once, a larger one is measured.
 #include "cli/commands/batch/batch_job.h"
 #include "cli/commands/farm/farm.h"
 #include "cli/commands/rendering.h"
@@ -34,7 +34,7 @@ static int failed(struct pilot *p, const struct job *drawn, enum shot_status sta
     return render_not_drawn(p->cli, drawn, status, false);
 }
 
-// One small picture; *seconds is what it took.
+// Draws one small picture; *seconds gets its time.
 static enum shot_status take(struct pilot *p, struct job *drawn, uint32_t width, uint32_t height,
                              double *seconds) {
     const uint32_t samples = (uint32_t)drawn->session->image->samples;
@@ -56,7 +56,7 @@ static enum shot_status take(struct pilot *p, struct job *drawn, uint32_t width,
     return status;
 }
 
-// The least of some: kernels are compiled with the first ones.
+// The least time of several: the first ones also compile kernels.
 static enum shot_status take_least(struct pilot *p, struct job *drawn, uint32_t width, uint32_t height,
                                    double *seconds) {
     enum shot_status status = SHOT_OK;
@@ -144,7 +144,7 @@ static int measure_frame(struct pilot *p, const struct batch_job *job, uint32_t 
     int status = judge_session(p, &session);
     const double loaded = clock_seconds() - start;
     if (status == CLI_OK) {
-        // Again, at the size that is opened: a large picture would need all its memory.
+        // Opened again at the small size: a large picture would need all its memory.
         const double most = fmax(p->whole_width, p->whole_height), shrink = fmax(1, most / SIDE);
         session_finish(&session);
         options.width = (int32_t)ceil(p->whole_width / shrink);
@@ -172,7 +172,7 @@ static int measure_frames(struct pilot *p, const struct batch *batch) {
         const uint32_t job = frames > 1 ? (uint32_t)((uint64_t)(count - 1) * i / (frames - 1)) : 0;
         status = measure_frame(p, &batch->jobs.items[job], i);
     }
-    // The first frame also compiles kernels: that is a start's.
+    // The first frame also compiles kernels, which counts as start.
     double later = 0;
     for (uint32_t i = 1; i < frames; i++)
         later += p->load_s[i] / (frames - 1);

@@ -79,7 +79,7 @@ static const char *part_of(struct cli *cli, const char *output) {
     return arena_format(&cli->arena, "%.*s.", (int)stem, output).ptr;
 }
 
-// Names need only the frame's number: scene and values are the same in all of them.
+// Names need only the frame's number: scene and values are the same in all frames.
 static int judge_output(struct cli *cli, const struct farm_plan *plan) {
     const struct cli_output *output = &cli->options.outputs.items[0];
     struct strbuf name;
@@ -110,7 +110,7 @@ static int take_root(struct cli *cli, struct farm_plan *plan) {
     return judge_word(cli, 1, root);
 }
 
-// All of the command line that is wrong for many pictures is wrong here, and said in the same words.
+// Whatever is wrong on the command line for many pictures is wrong here, and reported in the same words.
 static int judge_frames(struct cli *cli) {
     struct batch batch = {.cli = cli};
     const int status = batch_plan(&batch);

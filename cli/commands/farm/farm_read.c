@@ -1,5 +1,4 @@
-// The plan of a folder, read back. Knows nothing of the command line, so that fuzzing reads plans without
-// one.
+// The plan of a folder, read back. It does not use the command line, so fuzzing can read plans without one.
 #include "cli/commands/farm/farm.h"
 #include "render/frames/frame_name.h"
 #include "render/parts/part_file.h"

@@ -31,7 +31,7 @@ static void add_number(struct strbuf *out, const char *option, double value) {
     strbuf_format(out, " --%s %.*s", option, (int)length, digits);
 }
 
-// How a picture is coded: an option of who writes it.
+// How a picture is coded: options of the command that writes it.
 static void add_coding(const struct cli_options *o, struct strbuf *out) {
     static const char *const compressions[] = {
         [IMAGE_ZIP] = "zip", [IMAGE_PIZ] = "piz", [IMAGE_UNCOMPRESSED] = "none"};
@@ -116,7 +116,7 @@ static void fill_words(const struct filling *f, str line, struct strbuf *out) {
     strbuf_char(out, '\n');
 }
 
-// A line that ends with " #@ A no-B" is there where A holds and B does not.
+// A line that ends with " #@ A no-B" is kept if A holds and B does not.
 static void fill_line(const struct filling *f, str line, struct strbuf *out) {
     const str mark = STR(" #@ ");
     size_t end = 0;

@@ -1,5 +1,5 @@
-// glint farm status DIR: which tasks are done, by their files and what they logged, and the command that does
-// the rest.
+// glint farm status DIR: which tasks are done, judged by their files and logs, and the command that does the
+// rest.
 #include "cli/commands/farm/farm.h"
 #include "core/heap.h"
 #include "core/json_write.h"
@@ -12,7 +12,7 @@
 
 enum task_state {
     TASK_DONE,
-    TASK_FAILED,  // its last attempt ended with another status than 0
+    TASK_FAILED,  // its last attempt ended with a status other than 0
     TASK_MISSING, // not begun, or at work
 };
 

@@ -1,4 +1,4 @@
-// glint import MESH -o SCENE: a scene to go on with, and the images that it needs beside it.
+// glint import MESH -o SCENE: a scene to edit, and beside it the images that it needs.
 #include "cli/commands/commands.h"
 #include "cli/made.h"
 #include "diag/codes/command.h"
@@ -112,7 +112,7 @@ static void tell(struct cli *cli, const char *path) {
         cli_write_error(arena_format(&cli->arena, "glint: wrote %s\n", path));
 }
 
-// Nothing, where one of the files is there already.
+// Writes nothing if one of the files is there already.
 static int write_all(struct import_job *job) {
     bool found = is_there(job->cli, job->out);
     for (uint32_t i = 0; i < job->plan.images.count; i++)

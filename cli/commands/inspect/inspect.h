@@ -26,13 +26,13 @@ struct inspect_buffer {
     uint64_t bytes;
 };
 
-// Those that are not empty, into `out`, INSPECT_BUFFERS long; returns how many.
+// Puts the buffers that are not empty into `out`, INSPECT_BUFFERS long; returns how many.
 uint32_t inspect_buffers(const struct flat_scene *flat, struct inspect_buffer *out);
 // How many materials have a name.
 uint32_t inspect_named_materials(const struct ir_scene *scene);
-// Why a feature is on: the place that switches it on, or SPAN_NONE, and the words, which are added.
+// Why a feature is on: returns the place that switches it on, or SPAN_NONE, and appends the words.
 span inspect_feature(const struct inspected_scene *scene, uint64_t bit, struct strbuf *words);
-// Why models have copies of a mesh that they could share.
+// Why models have copies of a mesh that they could share; appended to `words`.
 void inspect_copies(const struct flat_use *use, struct strbuf *words);
 
 void inspect_scene_text(const struct inspected_scene *scene, struct strbuf *out);

@@ -143,7 +143,7 @@ static void put_meshes(struct json_writer *w, const struct flat_scene *flat) {
         json_write_text(w, "mesh", use->mesh->path);
         json_write_integer(w, "models", use->models);
         json_write_integer(w, "instances", use->instances);
-        // Sharing what little there is can cost memory.
+        // Sharing a small mesh can cost memory.
         json_write_real(w, "saved_bytes", (double)use->saved_bytes);
         struct strbuf words;
         strbuf_init(&words);

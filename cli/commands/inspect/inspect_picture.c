@@ -66,7 +66,7 @@ static void line(struct strbuf *out, const char *name, str value) {
     if (value.len == 0)
         return;
     strbuf_format(out, "%-12s", name);
-    // What a file says may hold anything: a line stays one line, and says nothing to the terminal.
+    // A file's text may hold anything: it stays one line, and cannot control the terminal.
     for (size_t i = 0; i < value.len; i++)
         strbuf_char(out, (unsigned char)value.ptr[i] < ' ' || value.ptr[i] == 0x7f ? '?' : value.ptr[i]);
     strbuf_char(out, '\n');

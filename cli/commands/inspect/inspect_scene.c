@@ -1,4 +1,4 @@
-// What both reports on a scene tell.
+// What both reports on a scene share.
 #include "cli/commands/inspect/inspect.h"
 #include "load/where.h"
 

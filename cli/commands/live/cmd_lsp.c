@@ -13,11 +13,11 @@
 
 struct device_choice {
     struct cli *cli;
-    struct gpu_options options; // as they were before there were threads
+    struct gpu_options options; // taken before threads were started
 };
 
-// Where there is none, or the one that is asked for is not there, the reference draws: an editor shows
-// pictures, and `glint render` says what is wrong with devices.
+// If there is no device, or not the one asked for, the reference draws: an editor shows pictures, and `glint
+// render` reports what is wrong with devices.
 static struct gpu *open_device(void *context) {
     const struct device_choice *choice = context;
     char error[GPU_ERROR_BYTES];

@@ -1,5 +1,4 @@
-// glint view SCENE: a window (view/), with what it says on standard output and the findings on standard
-// error.
+// glint view SCENE: a window (view/); its messages go to standard output, findings to standard error.
 #include "cli/commands/commands.h"
 #include "cli/device.h"
 #include "cli/made.h"
@@ -14,7 +13,7 @@
 #include <string.h>
 
 enum {
-    // Before the scene is read nobody knows how large its picture is.
+    // Used until the scene is read and its picture's size is known.
     FIRST_WIDTH = 640,
     FIRST_HEIGHT = 480,
 };

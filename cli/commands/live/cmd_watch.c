@@ -14,9 +14,9 @@
 #include <stdio.h>
 #include <string.h>
 
-// A file that an editor is writing is whole when nothing has changed for so long.
+// A file that an editor writes is taken as whole when nothing has changed for this time.
 #define QUIET_SECONDS 0.01
-// How often it is looked at, while a picture is made, whether that is of an old scene already.
+// How often files are checked while a picture is made, to see whether its scene is already old.
 #define LOOK_SECONDS 0.1
 #define WAIT_SECONDS 1.0
 
@@ -29,10 +29,10 @@ struct watching {
     enum image_format format;
     struct image image;
     struct progress progress;
-    double looked;        // clock: at the files, during a frame
+    double looked;        // clock: last check of the files during a frame
     bool is_stale;        // the frame was ended because a file has changed
     double changed;       // clock: when the last change was seen
-    double pixel_seconds; // that a sample of a pixel took in the last frame; 0: there was none
+    double pixel_seconds; // per sample of a pixel in the last frame; 0: there was none
 };
 
 // ---- what does not go together with it
@@ -90,7 +90,7 @@ static int encode_and_write(struct watching *w, double *encode_seconds) {
     return status;
 }
 
-// Something to see at once, where the frame takes long: it does not say how it was made.
+// Shows something at once if the frame takes long; the file does not say how it was made.
 static int show_coarse(struct watching *w, const struct render_progress *progress, double *seconds) {
     const uint32_t shrink = coarse_shrink(&w->live.shot.settings, w->pixel_seconds);
     double encode_seconds;
@@ -154,7 +154,7 @@ static int show_picture(struct watching *w) {
     progress_end(&w->progress);
     if (coarse != CLI_OK)
         return coarse;
-    // By a signal or by a change, which the caller sees.
+    // Ended by a signal or by a change; the caller sees which.
     if (status == SHOT_CANCELLED)
         return CLI_OK;
     if (status == SHOT_DEVICE)
@@ -181,7 +181,7 @@ static int show_findings(struct watching *w) {
         return CLI_FILE;
     }
     const int status = cli_report(w->cli, session, !w->cli->options.quiet);
-    // What is wrong with the command line, no change of the scene will mend.
+    // No change of the scene can mend a mistake on the command line.
     if (w->live.loads == 1 && status != CLI_SCENE)
         return status;
     const struct live_report report = {.live = &w->live, .is_broken = true, .output = w->output};
@@ -205,7 +205,7 @@ static int load(struct watching *w) {
     }
 }
 
-// The picture is there: now is the time for what the next one would wait for.
+// Once the picture is there, compiles what the next one would wait for.
 static int load_and_warm(struct watching *w) {
     const int status = load(w);
     if (status != CLI_OK || !w->live.session || interrupt_signal() || live_warm(&w->live))

@@ -17,7 +17,7 @@ struct manual {
     const struct cli_command *commands; // a row without a name at the end
 };
 
-// glint(1), where `command` is NULL; else glint-COMMAND(1). In man(7).
+// glint(1) if `command` is NULL, else glint-COMMAND(1), in man(7).
 void manual_page(const struct manual *manual, const struct cli_command *command, struct strbuf *out);
 // Completion scripts.
 void manual_bash(const struct manual *manual, struct strbuf *out);

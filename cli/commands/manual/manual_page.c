@@ -5,10 +5,10 @@
 #include <string.h>
 
 enum {
-    LINE_BYTES = 64, // of the page's source, which tools that check pages want short
+    LINE_BYTES = 64, // of the page's source; tools that check pages want short lines
 };
 
-// Text as roff takes it: no letter of it is a command.
+// Escapes text for roff: no character of it is a command.
 static void add_letters(struct strbuf *out, str text, bool at_begin) {
     if (at_begin && text.len && (text.ptr[0] == '.' || text.ptr[0] == '\''))
         strbuf_cstr(out, "\\&");

@@ -1,5 +1,5 @@
 // Completions for bash, zsh and fish: commands, their options, and the words that an option or operand can
-// be. All else is completed as files.
+// be. Everything else is completed as files.
 #include "cli/commands/manual/manual.h"
 
 #include <stdio.h>
@@ -114,7 +114,7 @@ void manual_bash(const struct manual *manual, struct strbuf *out) {
 
 // ---- zsh
 
-// In single quotes, inside of brackets and between colons.
+// Text in single quotes, inside brackets and between colons.
 static void add_zsh_text(struct strbuf *out, const char *text) {
     for (; *text; text++)
         if (*text == '\'')
@@ -126,7 +126,7 @@ static void add_zsh_text(struct strbuf *out, const char *text) {
 }
 
 static void add_zsh_option(struct strbuf *out, const struct option_row *o) {
-    // An option that may be given several times is offered again; "[=X]" takes its value behind a sign only.
+    // An option that may be given several times is offered again; "[=X]" takes its value only after '='.
     const bool again = o->argument && strstr(o->argument, "...");
     const char *joint = cli_option_is_optional(o) ? "=-" : o->argument ? "=" : "";
     for (int k = 0; k < (o->letter ? 2 : 1); k++) {

@@ -25,9 +25,9 @@ struct listing {
     } told;
 };
 
-// What make would split in a list of files is escaped, with the backslashes before it (GNU make 4.3, "Rule
-// Syntax", "Pattern Intro", "Wildcards"). Nothing can be written for ';', a pair of parentheses and a
-// backslash at the end.
+// Escapes characters at which make would split a list of files, and the backslashes before them (GNU make
+// 4.3, "Rule Syntax", "Pattern Intro", "Wildcards"). ';', a pair of parentheses and a backslash at the end
+// cannot be escaped.
 static void make_name(struct strbuf *out, str path, bool is_target) {
     size_t backslashes = 0;
     if (path.len && path.ptr[0] == '~')
@@ -35,7 +35,7 @@ static void make_name(struct strbuf *out, str path, bool is_target) {
     for (size_t i = 0; i < path.len; i++) {
         char c = path.ptr[i];
         if (c == '=') {
-            strbuf_cstr(out, "$(subst x,=,x)"); // or it would be an assignment
+            strbuf_cstr(out, "$(subst x,=,x)"); // a plain '=' would make it an assignment
         } else if (c == '$') {
             strbuf_cstr(out, "$$");
         } else {

@@ -13,7 +13,7 @@ static bool is_stopped(void) {
     return interrupt_signal() != 0;
 }
 
-// Who gets the package must know that it needs more than the defaults.
+// Whoever gets the package must know that it needs more than the default limits.
 static void tell_limits(const struct pack_plan *plan, const char *out) {
     struct strbuf text;
     if (!plan->limits.len)
@@ -48,7 +48,7 @@ static int pack(struct cli *cli, struct session *session, const char *out, const
     return CLI_FILE;
 }
 
-// It would become a folder of that name.
+// An archive of another kind: OUT would become a folder of that name.
 static bool is_other_archive(struct cli *cli) {
     static const char *const others[] = {".tar", ".gz", ".tgz", ".bz2", ".xz", ".zst", ".7z", ".rar", NULL};
     const char *out = cli->operands[1];

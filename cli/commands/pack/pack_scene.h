@@ -1,4 +1,4 @@
-// A scene with all its files, put into a folder or archive: for who packs one besides.
+// Puts a scene with all its files into a folder or archive, for other commands that pack one too.
 //
 // Thread safety: as cli.h.
 #ifndef GLINT_CLI_COMMANDS_PACK_PACK_SCENE_H

@@ -1,4 +1,4 @@
-// glint merge OUT PART...: parts of a picture, to the picture.
+// glint merge OUT PART...: joins the parts of a picture.
 #include "cli/commands/commands.h"
 #include "cli/commands/parts/merge_rows.h"
 #include "cli/commands/rendering.h"
@@ -72,7 +72,7 @@ static int take_output(struct rendering *r) {
                      "'%s' is a part: a picture is written first, then its parts", cli->operands[0]);
 }
 
-// The picture of parts that fit, into the job's image.
+// Adds parts that fit into the job's image.
 static int add_parts(struct rendering *r, const uint32_t *order, uint32_t count) {
     int status = CLI_OK;
     for (uint32_t i = 0; i < count && status == CLI_OK; i++) {
@@ -85,7 +85,7 @@ static int add_parts(struct rendering *r, const uint32_t *order, uint32_t count)
     return status;
 }
 
-// What a row cannot be made of alone: parts of samples, and formats that are coded as a whole.
+// For pictures that cannot be made row by row: of parts of samples, and in formats that are coded as a whole.
 static int merge_at_once(struct rendering *r, const uint32_t *order, uint32_t count) {
     struct cli *cli = r->cli;
     const uint32_t width = r->job.image.width, height = r->job.image.height;
@@ -105,7 +105,7 @@ static int merge_at_once(struct rendering *r, const uint32_t *order, uint32_t co
     return status == CLI_OK ? render_write_pictures(r, 0) : status;
 }
 
-// --skip-done: what the parts say of how they were made, the picture says too.
+// --skip-done: the picture says the same of how it was made as its parts.
 static bool is_done(struct rendering *r) {
     struct cli *cli = r->cli;
     const struct cli_output *output = &r->outputs[0];
@@ -132,7 +132,7 @@ static int merge(struct rendering *r) {
         status = judge(cli, parts, count, order);
     if (status != CLI_OK)
         return status;
-    // Made on several devices it says nothing of how: no command makes it again.
+    // A picture made on several devices has no record: no command makes it again.
     r->record = parts->record;
     for (uint32_t i = 1; i < count; i++)
         if (strcmp(parts[i].record, parts->record) != 0)
@@ -161,7 +161,7 @@ static int merge_once(struct cli *cli) {
 
 // ---- frames
 
-// An operand's name in a frame; NULL: a '%' in it is followed by something else, or no memory.
+// An operand's name in a frame; NULL: a '%' is followed by something else, or there is no memory.
 static char *name_in_frame(struct cli *cli, const char *pattern, int32_t frame) {
     struct strbuf name;
     strbuf_init(&name);
@@ -220,7 +220,7 @@ static int judge_made(struct cli *cli, const char *pattern) {
     return status;
 }
 
-// A frame that fails is reported, and the others are joined.
+// A frame that fails is reported, and the others are still joined.
 static int merge_frames(struct cli *cli) {
     const struct cli_batch *b = &cli->options.batch;
     char **patterns = cli->operands, **argv = cli->argv;

@@ -36,7 +36,7 @@ static int place_of(const struct rendering *r) {
     return place;
 }
 
-// What cannot be said of, or done with, a part; NULL: nothing of it is asked for.
+// What was asked for that a part cannot have; NULL: nothing.
 static const char *obstacle(const struct rendering *r) {
     const struct cli_options *o = &r->cli->options;
     if (cli_device_is_reference(r->cli))
@@ -105,7 +105,7 @@ static int plan_samples(struct rendering *r) {
                      part->first_sample, part->end_sample, part->samples);
 }
 
-// Some of the samples are a part, and no picture.
+// With only some of the samples it is a part, not a picture.
 static int judge_outputs(struct rendering *r) {
     const struct part *part = &r->job.part;
     const bool few = part->end_sample - part->first_sample < part->samples;

@@ -51,7 +51,7 @@ bool render_output_is_done(const struct rendering *r, const struct cli_output *o
 
 // ---- one render
 
-// What would be written of a camera.
+// Whether everything that would be written for a camera is there.
 static bool is_done(struct rendering *r, uint32_t camera) {
     bool done = true;
     r->job.camera = camera;

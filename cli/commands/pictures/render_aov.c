@@ -1,4 +1,4 @@
-// What else is known of a picture's pixels: --aov, by the tracer that made the picture.
+// --aov: what else is known of a picture's pixels, by the tracer that made the picture.
 #include "cli/commands/rendering.h"
 #include "cli/device.h"
 #include "cli/made.h"

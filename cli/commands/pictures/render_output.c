@@ -90,7 +90,7 @@ static bool has_bits(const struct image_format_info *info, int32_t bits) {
     return false;
 }
 
-// An option that no output can follow is a mistake.
+// A coding option that no output can use is a mistake.
 static int judge_coding(struct rendering *r) {
     struct cli *cli = r->cli;
     bool depth = cli->options.depth == 0, quality = false, compression = false;
@@ -174,7 +174,7 @@ void render_encode(struct rendering *r, enum image_format format, struct strbuf 
     if (r->record)
         job->image.texts = provenance_of_line(r->record, format, coding, job->arena);
     else if (job->session->scene && !job->is_part) {
-        // Parts are joined without a scene, and no part of a picture is made by the command of all of it.
+        // Parts are joined without a scene, and the command of the whole picture does not make a part.
         const struct provenance made = job_provenance(job, format, coding);
         job->image.texts = provenance_texts(&made, job->arena);
     }

@@ -18,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Of --time.
+// Share of --time that a search may take.
 static const double SEARCH_TIME_SHARE = 0.5;
 
 static bool read_max_error(struct cli *cli, struct tradeoff_options *options) {
@@ -109,7 +109,7 @@ static int run(struct cli *cli, struct session *session, struct gpu *gpu, const 
     return failed(cli, session, gpu, status);
 }
 
-// A hash of what a search reads: the scene with its files, the view, what is asked, the device and its
+// A hash of what a search depends on: the scene with its files, the view, the question, the device and its
 // driver, and this version of glint.
 static void study_key(const struct session *session, const struct view *view, const struct gpu *gpu,
                       const struct tradeoff_options *options, uint64_t key[2]) {
@@ -139,7 +139,7 @@ static void study_key(const struct session *session, const struct view *view, co
     hash128_end(&h, key);
 }
 
-// Searches are kept; whole studies are measured each time.
+// Searches are cached; whole studies are measured each time.
 static int run_or_recall(struct cli *cli, struct session *session, struct gpu *gpu, const struct view *view,
                          const struct tradeoff_options *options, struct tradeoff *study) {
     if (!options->search || cli->options.no_cache)
@@ -151,7 +151,7 @@ static int run_or_recall(struct cli *cli, struct session *session, struct gpu *g
     const bool known = study_recall(&store, key, study);
     const int status = known ? CLI_OK : run(cli, session, gpu, view, options, study);
     study->is_recalled = known;
-    // What the time cut short may be found with more of it.
+    // A search that was cut short may find more with more time.
     if (status == CLI_OK && !known && !study->cut_short)
         study_keep(&store, key, study);
     free(path);
@@ -186,7 +186,7 @@ static void tell_search(const struct cli *cli, const struct tradeoff *study) {
     strbuf_finish(&text);
 }
 
-// What would keep the bound, or why nothing does; false: that is not known.
+// Says what would keep the bound, or why nothing does; false: that is not known.
 static bool put_verdict(const struct tradeoff *study, char *out, size_t capacity) {
     const struct search_verdict *v = &study->verdict;
     const struct metric_info *metric = &metric_infos[study->options.metric];
@@ -233,7 +233,7 @@ static int take_choice(struct cli *cli, const struct tradeoff *study) {
         str *set = ARENA_PUSH(&cli->arena, &cli->options.sets);
         *set = arena_copy(&cli->arena, str_from(assignment));
     }
-    // The choice includes them: else those of the command line would override it.
+    // The choice includes the sizes: else those of the command line would override it.
     if (s->width != base->width || s->height != base->height) {
         cli->options.measure.scale_width = base->width;
         cli->options.measure.scale_height = base->height;

@@ -1,7 +1,7 @@
 // glint test: the cases of a folder, and what became of them. Private to cli/test.
 //
-// Ownership: all lies in cli->arena but the pictures for the page, which test_finish frees. Thread safety: as
-// cli.h.
+// Ownership: all lies in cli->arena except the pictures for the page, which test_finish frees. Thread safety:
+// as cli.h.
 #ifndef GLINT_CLI_COMMANDS_TEST_TEST_H
 #define GLINT_CLI_COMMANDS_TEST_TEST_H
 
@@ -17,7 +17,7 @@ enum test_state {
     TEST_DIFFERS, // or has another size
     TEST_MISSING, // there is no reference
     TEST_FAILED,  // no picture could be made, or the reference is damaged
-    TEST_LIBRARY, // without a picture of its own: a scene that only defines things for others
+    TEST_LIBRARY, // a scene that only defines things for others, without a picture of its own
     TEST_STATES,
 };
 extern const char *const test_state_words[TEST_STATES];
@@ -38,17 +38,17 @@ struct test_case {
     str scene;    // its path
     str picture;  // the reference's path
     str found_in; // the folder that was searched for the scene; empty: the file names it
-    str named_in; // the root below which it is then
+    str named_in; // the root that the scene must be below, if the file names it
     struct test_settings settings;
-    bool is_there;   // the reference, when the cases were listed
-    bool is_foreign; // what is there is not a picture, not even a damaged one
-    bool is_unread;  // nor is that known: the system did not let it be read, as the reason says
+    bool is_there;   // the reference was there when the cases were listed
+    bool is_foreign; // the file there is not a picture, not even a damaged one
+    bool is_unread;  // that is not known either: the system did not let it be read, as `reason` says
     enum image_format format;
     // What became of it.
     enum test_state state;
     bool is_written; // a new reference
     str reason;      // in words; empty: the figures say it
-    str record;      // what the reference's record says otherwise than the new one; empty: nothing
+    str record;      // how the reference's record differs from the new one; empty: not at all
     struct test_size now, was;
     int32_t samples;
     bool is_measured;
@@ -61,7 +61,7 @@ struct test_run {
     struct cli *cli;
     str folder;         // without '/' at its end
     str file_path;      // of the bounds; empty: there are none
-    struct files files; // its roots: where what the file names must be
+    struct files files; // with the roots below which paths named by the file must be
     struct test_file file;
     struct {
         struct test_case *items;
@@ -77,8 +77,8 @@ struct test_run {
 // test_plan.c: an exit code.
 int test_plan(struct test_run *run);
 
-// test_render.c: makes the pictures one after another; `judge` gets each as a file in memory, which is
-// gone afterwards, or of none where a case failed. An exit code.
+// test_render.c: makes the pictures one after another; `judge` gets each as a file in memory, valid only
+// during the call, or none if the case failed. An exit code.
 struct test_made {
     struct strbuf file;
     struct image_display display;
@@ -98,7 +98,8 @@ struct test_counts test_count(const struct test_run *run);
 // Whether the exit status is 0.
 bool test_passed(const struct test_run *run);
 
-// The figures that matter, or why there are none: "share 0.031 (at most 0.005), the worst at 12,30".
+// The figures that matter, or the reason that there are none: "share 0.031 (at most 0.005), the worst at
+// 12,30".
 void test_figures(const struct test_case *test, struct strbuf *out);
 void test_line(const struct test_run *run, const struct test_case *test, struct strbuf *out);
 void test_closing(const struct test_run *run, struct strbuf *out);

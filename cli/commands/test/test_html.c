@@ -1,5 +1,5 @@
-// The results of glint test as one page without anything from outside: what is not within its bounds is open,
-// with picture, reference and difference side by side.
+// The results of glint test as one self-contained page: cases not within their bounds are open, with picture,
+// reference and difference side by side.
 #include "cli/commands/test/test.h"
 
 static const char style[] =
@@ -21,7 +21,7 @@ static const char style[] =
     "@media(max-width:640px){.trio{grid-template-columns:1fr}}"
     "body.only .good{display:none}";
 
-// The arrow keys go from picture to picture, Enter and space open one, as everywhere.
+// The arrow keys go from picture to picture; Enter and space open one, as usual.
 static const char script[] =
     "const only=document.getElementById('only');if(only)only.onchange=()=>"
     "document.body.classList.toggle('only',only.checked);"

@@ -1,5 +1,5 @@
-// A picture against its reference: the metrics of glint compare, of displayed values, and what the
-// reference's record says otherwise.
+// A picture against its reference: the metrics of glint compare, on displayed values, and how the reference's
+// record differs.
 #include "cli/commands/test/test.h"
 
 #include "core/heap.h"
@@ -30,7 +30,7 @@ static bool wants_shown(const struct test_run *run) {
 // ---- pictures for the page
 
 enum {
-    SHOWN_MOST = 1024,       // pixels of a side; where the bounds are kept less
+    SHOWN_MOST = 1024,       // pixels per side; fewer if the bounds are kept
     SHOWN_MOST_WITHIN = 320, //
 };
 
@@ -41,7 +41,7 @@ static uint32_t step_of(const struct test_case *test, uint32_t width, uint32_t h
     return (side + most - 1) / most;
 }
 
-// Squares of step x step pixels become one: their mean.
+// Squares of step x step pixels become one pixel: their mean.
 static bool show_picture(const struct picture_file *p, uint32_t step, struct strbuf *out) {
     struct image small;
     if (!image_init(&small, (p->width + step - 1) / step, (p->height + step - 1) / step))
@@ -63,7 +63,7 @@ static bool show_picture(const struct picture_file *p, uint32_t step, struct str
     return !out->failed;
 }
 
-// The largest of each square: one wrong pixel stays visible.
+// The largest value of each square, so one wrong pixel stays visible.
 static bool show_map(const struct judging *j, uint32_t step, struct strbuf *out) {
     const struct picture_file *p = &j->pictures[0];
     const uint32_t width = (p->width + step - 1) / step, height = (p->height + step - 1) / step;
@@ -135,7 +135,7 @@ bool test_breaks(const struct test_case *test, enum metric metric) {
     return !measure_keeps(&test->settings.bounds, &test->result, metric);
 }
 
-// Pixels that are finite in one float picture only: as displayed they might look alike.
+// Pixels that are finite in only one float picture: displayed, they might look alike.
 static uint64_t count_not_finite(const struct picture_file *p) {
     const uint64_t pixels = (uint64_t)p[0].width * p[0].height;
     uint64_t count = 0;

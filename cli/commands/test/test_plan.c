@@ -19,7 +19,7 @@ enum {
     FILE_BYTES_MAX = 1 << 20,
 };
 
-// The first that is there is the reference; a new one has the first.
+// The first ending that exists is the reference's; a new reference gets the first in the list.
 static const char *const picture_endings[] = {".png", ".exr", ".hdr", ".pfm", ".jpg", ".jpeg", NULL};
 
 static str without_ending(str path, const char *const *endings) {
@@ -167,9 +167,9 @@ static bool is_only_name(const struct test_run *run, str base) {
     return count == 1;
 }
 
-// In the folder that the file names, by the scene's path or by its name alone. Else beside the scene, in the
-// folder `pictures` there, or in that of the folder tested: a new one goes into such a folder if there is
-// one.
+// Looks in the folder that the file names, by the scene's path or only by its name. Else beside the scene, in
+// the folder `pictures` there, or in that of the tested folder; a new picture goes into such a folder if
+// there is one.
 static void find_picture(struct test_run *run, struct test_case *test) {
     struct arena *arena = &run->cli->arena;
     const str named = test_pictures_folder(run), base = path_base(test->name);
@@ -271,7 +271,7 @@ static int add_entry(struct plan *plan, const struct test_entry *entry, struct t
     return CLI_OK;
 }
 
-// A scene that the file names has those pictures, and the one of its name only if that is there.
+// A scene that the file names has the pictures given there, and the one of its own name only if it exists.
 static bool is_replaced(struct test_run *run, const struct test_case *test, const struct test_case *named,
                         uint32_t count) {
     struct files *files = &run->files;
@@ -312,7 +312,7 @@ static int add_entries(struct plan *plan) {
 
 // ---- all of them
 
-// By device, then by scene, so that what they share is opened and read once.
+// By device, then by scene, so each is opened or read only once.
 static int compare(const void *a, const void *b) {
     const struct test_case *x = a, *y = b;
     const int by_device = str_compare(x->settings.device, y->settings.device);
@@ -368,7 +368,7 @@ static int choose(struct test_run *run) {
     return CLI_USAGE;
 }
 
-// Pictures in the file's folder that belong to no scene: of one that was renamed or removed, perhaps.
+// Pictures in the file's folder that belong to no scene: perhaps it was renamed or removed.
 static void find_unused(struct test_run *run) {
     struct cli *cli = run->cli;
     struct files_found found = {.arena = &cli->arena, .endings = picture_endings};

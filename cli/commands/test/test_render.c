@@ -1,5 +1,5 @@
-// The pictures of all cases, one after another: a device is opened once for those that follow each other, and
-// a scene is read once for its pictures; meshes, images and trees are kept from scene to scene (render/live).
+// The pictures of all cases, one after another: a device is opened once for consecutive cases, and a scene is
+// read once for its pictures; meshes, images and trees are kept from scene to scene (render/live).
 #include "cli/commands/test/test.h"
 
 #include "cli/device.h"
@@ -21,7 +21,7 @@ struct tester {
     bool is_open, is_reference;
     struct live live;
     struct live_loaded loaded;     // of the reference: what it renders
-    const struct test_case *shown; // whose scene is loaded and good; NULL: none
+    const struct test_case *shown; // the case whose scene is loaded and good; NULL: none
     str device;
     struct job job; // that draws a case
     struct image image;
@@ -108,7 +108,7 @@ static int scene_failed(struct tester *t, struct test_case *test, struct session
     return fail(t, test, "the scene has errors");
 }
 
-// The file of bounds names the camera: that is where the mistake is.
+// The file of bounds names the camera, so a mistake is reported there.
 static bool has_camera(struct tester *t, const struct test_case *test, const struct session *session) {
     const struct ir_cameras *cameras = &session->scene->cameras;
     struct nearest search = nearest_begin(test->settings.camera);
@@ -135,7 +135,7 @@ static bool is_good(const struct session *session) {
     return session && session->state == SESSION_LOADED && session->sink.errors == 0;
 }
 
-// What is loaded, or what the case's scene is; NULL: the case failed.
+// The session of the case's scene, loaded if it is not yet; NULL: the case failed.
 static struct session *load(struct tester *t, struct test_case *test) {
     if (t->shown && same_load(t->shown, test)) {
         struct session *session = t->is_reference ? t->loaded.session : t->live.session;
@@ -200,7 +200,7 @@ static int show(struct tester *t, struct test_case *test) {
     return state == LIVE_SHOWN ? CLI_OK : scene_failed(t, test, live_findings(&t->live));
 }
 
-// What is shown, or what the reference draws of the session.
+// Draws what is shown on the device, or the session by the reference.
 static int draw(struct tester *t, struct test_case *test, struct session *session) {
     struct job *job = &t->job;
     const uint32_t errors = session->sink.errors;
@@ -221,7 +221,7 @@ static int draw(struct tester *t, struct test_case *test, struct session *sessio
     return ended(t, test, session, status, errors);
 }
 
-// How the reference says that it is coded: what a new one is coded as, too.
+// How the reference says that it is coded; a new one is coded the same.
 static struct image_coding test_coding(struct test_run *run, const struct test_case *test) {
     struct image_coding coding = {0};
     struct record_read record;
@@ -282,7 +282,7 @@ int test_render(struct test_run *run, test_judge_fn judge) {
     int status = CLI_OK;
     strbuf_init(&made.file);
     interrupt_catch();
-    // Where lines are printed as they come, they are the progress.
+    // If lines are printed as results come, they show the progress.
     progress_begin(&t.progress, run->cli->options.quiet || !run->format);
     for (uint32_t i = 0; i < run->cases.count && status == CLI_OK; i++) {
         struct test_case *test = &run->cases.items[i];

@@ -1,4 +1,4 @@
-// glint verify PICTURE [SCENE]: renders a picture again as it says that it was made, and compares.
+// glint verify PICTURE [SCENE]: renders a picture again the way its record says, and compares.
 #include "cli/commands/commands.h"
 #include "cli/commands/verify/verify.h"
 
@@ -56,7 +56,7 @@ static int no_record(struct verify *v) {
     return CLI_SCENE;
 }
 
-// What the file says must not make this process read or write anything but its scene.
+// The file's record must not make this process read or write anything but its scene.
 static int read_record(struct verify *v) {
     struct cli *cli = v->cli;
     if (!v->was.is_there || !record_read_command(v->was.fields[RECORD_COMMAND], &cli->arena, &v->command))
@@ -169,7 +169,7 @@ static int no_memory_for_picture(struct verify *v) {
     return CLI_SCENE;
 }
 
-// To the size that the picture had, if it was scaled up.
+// Scales to the size that the picture had, if it was scaled up.
 static int scale(struct verify *v, struct job *job) {
     int32_t width, height;
     const bool is_scaled = number_parse_size(v->was.fields[RECORD_SCALED], "x", INT32_MAX, &width, &height);
@@ -192,7 +192,7 @@ static void encode(struct verify *v, struct job *job) {
     image_encode(&job->image, format, v->display, &v->made);
 }
 
-// One with faulty pixels is a picture, and its errors are reported.
+// A picture with faulty pixels counts, and its errors are reported.
 static int draw(struct verify *v, struct job *job) {
     struct progress progress;
     const struct render_progress callback = progress_callback(&progress);

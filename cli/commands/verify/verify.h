@@ -9,13 +9,13 @@
 #include "render/record/record.h"
 
 // Between devices and versions, of displayed values (docs/accuracy.md, "Other devices"): the largest share of
-// pixels that are further off than VERIFY_OFF in a channel, and the mean of all channels.
+// pixels off by more than VERIFY_OFF in a channel, and the largest mean over all channels.
 #define VERIFY_OFF   (2.0 / 255)
 #define VERIFY_SHARE 0.005
 #define VERIFY_MEAN  (0.1 / 255)
 
 struct verify_pixels {
-    uint64_t count, differ; // pixels; those of which a channel is another number
+    uint64_t count, differ; // pixels; pixels that differ in a channel
     struct measure_place worst;
     double share, mean; // as displayed, of VERIFY_OFF
 };
@@ -35,7 +35,7 @@ struct verify {
     int status;
 };
 
-// All of it: what the exit status says.
+// Whether everything holds: what the exit status says.
 bool verify_holds(const struct verify *v);
 
 // verify_report.c

@@ -8,7 +8,7 @@
 // ---- what holds
 
 static bool verify_same(const struct verify *v, enum record_field field) {
-    // Where the scene lies is not how the picture is made; the rest of the command is in the other fields.
+    // The scene's place does not change the picture; the rest of the command is in the other fields.
     const bool moved = v->cli->operand_count > 1 || cli_option_place(v->cli, "asset-path");
     if (field == RECORD_COMMAND && moved)
         return true;
@@ -91,7 +91,7 @@ static size_t first_other_byte(const struct verify *v) {
     return at;
 }
 
-// Where all is the same, but bytes are not.
+// For files that differ in bytes although all else is the same.
 static void file_text(const struct verify *v, struct strbuf *out) {
     const bool moved = !str_equal(v->was.fields[RECORD_COMMAND], v->is.fields[RECORD_COMMAND]);
     if (verify_elsewhere(v) || moved || v->pixels.differ || !verify_holds(v))
