@@ -129,7 +129,7 @@ static int render_camera(struct rendering *r, uint32_t camera, uint32_t cameras)
     progress_begin(&r->progress, r->cli->options.quiet);
     int status =
         CLI_HAS_DEVICES && r->job.in_bands ? render_in_bands(r, camera) : render_at_once(r, camera, cameras);
-    // After the picture was written: it is not waited for.
+    // Counted only after the picture was written, which does not wait for it.
     const enum shot_status counted = status == CLI_OK ? job_count(&r->job) : SHOT_OK;
     if (counted != SHOT_OK)
         status = render_failed(r, counted);
