@@ -18,7 +18,7 @@ enum {
     COLUMNS = 96, // of the grid, at most
     HITS_MAX = 256,
     WORK_MAX = 20000000,    // rays times bodies
-    RAY_WORK_MAX = 1 << 12, // triangles that one ray may try: in a fan of needles it meets them all
+    RAY_WORK_MAX = 1 << 12, // triangles that one ray may try: in a fan of needles it hits them all
 };
 
 struct crossing {

@@ -268,7 +268,7 @@ static str symbol_name(struct arena *arena, const struct schema_element *schema,
     str key = ir_walk_key(schema, element);
     if (key.len)
         return key;
-    // List entries are told apart by the file that they name, else by their place in the list.
+    // List entries differ by the file that they name, else by their place in the list.
     for (uint32_t i = 0; i < schema->row_count; i++) {
         const struct schema_row *row = &schema->rows[i];
         const str *text = schema_field_const(row, element);

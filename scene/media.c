@@ -8,7 +8,7 @@
 
 enum {
     COMPARED_MAX = 100000000, // pairs of boxes
-    DIRECTIONS = 8,           // directions tried before a mesh whose edges every ray meets
+    DIRECTIONS = 8,           // directions tried before a mesh whose edges every ray hits
 };
 
 // ---- materials

@@ -1,8 +1,8 @@
 // Pixels for a window: a picture, enlarged where it has fewer pixels, and text over it.
 //
 // Pixels are four bytes: blue, green, red, 255; rows from the top. Text is ASCII in a font of glint's own, of
-// 5 x 7 dots; other characters are shown as '?'. Ownership: canvas_finish frees. Errors: false if there is no
-// memory. Thread safety: a canvas belongs to one thread.
+// 5 x 7 dots; other characters are shown as '?'. Ownership: canvas_finish frees. Errors: false if memory
+// ran out. Thread safety: a canvas belongs to one thread.
 #ifndef GLINT_WINDOW_CANVAS_H
 #define GLINT_WINDOW_CANVAS_H
 

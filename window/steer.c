@@ -7,7 +7,7 @@
 #define CLICK_PIXELS 3.0
 #define HIGHEST_ANGLE                                                                                        \
     1.55 // highest angle of the view over the horizon: at a right angle, left and right would swap
-#define SECONDS_MOST 0.25     // of a step: a pause is no flight
+#define SECONDS_MOST 0.25     // of a step: a pause does not fly on
 #define SPEED_SHARE  (1 / 3.) // of the scene's extent, a second
 #define SPEED_LEAST  1e-9
 #define SPEED_MOST   1e12

@@ -70,9 +70,7 @@ struct job {
 };
 
 // A program without devices (docs/decisions/install.md) draws by the reference, and leaves the rest out.
-static inline bool job_by_reference(const struct job *job) {
-    return !CLI_HAS_DEVICES || job->wish.by_reference;
-}
+bool job_by_reference(const struct job *job);
 
 // ---- job.c: what draws
 

@@ -258,7 +258,7 @@ static bool begin_live(struct preview *p, const struct preview_wish *wish) {
     drop_live(p);
     p->path = heap_text_of(path.ptr, path.len);
     p->path_length = path.len;
-    // Each picture says what is to be read.
+    // Each picture says what must be read.
     const struct live_wish live = {0};
     p->is_live = p->path != NULL;
     return p->is_live && live_begin(&p->live, &live, p->gpu);

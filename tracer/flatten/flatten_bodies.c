@@ -250,8 +250,8 @@ static void pack_triangle(const struct flattening *f, const struct gpu_triangle 
     gpu_pack_placed(&record, to);
 }
 
-// 0 for numbers below all normal floats: they are no part of the scene, whose size is 1, and its record could
-// not hold them (shaders/records.h, TRIANGLE_REST).
+// 0 for numbers below all normal floats: they do not belong to the scene, whose size is 1, and its record
+// could not hold them (shaders/records.h, TRIANGLE_REST).
 static double without_trace(double value) {
     return fabs(value) < FLT_MIN ? 0 : value;
 }

@@ -12,7 +12,7 @@
 #include <string.h>
 
 enum {
-    WHOLE_PIXELS = 8 << 20, // larger ones are in bands if nothing needs them whole, at 18 bytes a pixel
+    WHOLE_PIXELS = 8 << 20, // larger ones are in bands if nothing needs them whole, at 18 bytes per pixel
 };
 
 // ---- whether

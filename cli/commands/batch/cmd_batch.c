@@ -196,7 +196,7 @@ static enum live_state show(struct batch_run *run, uint32_t number) {
     return state;
 }
 
-// The camera of this name; IR_NO_INDEX: there is none, which is reported when it is to be shown.
+// The camera of this name; IR_NO_INDEX: there is none, which is reported when it would be shown.
 static uint32_t camera_of(const struct session *session, str name) {
     const struct ir_cameras *cameras = &session->scene->cameras;
     for (uint32_t i = 0; i < cameras->count; i++)
