@@ -14,10 +14,6 @@ enum {
 
 // ---- what draws
 
-bool job_by_reference(const struct job *job) {
-    return !CLI_HAS_DEVICES || job->wish.by_reference;
-}
-
 uint32_t job_band_rows(const struct job *job) {
     const struct part *part = &job->part;
     const bool is_cpu = gpu_info(job->gpu)->kind == GPU_CPU;

@@ -70,7 +70,9 @@ struct job {
 };
 
 // A program without devices (docs/decisions/install.md) draws by the reference, and leaves the rest out.
-bool job_by_reference(const struct job *job);
+static inline bool job_by_reference(const struct job *job) {
+    return !CLI_HAS_DEVICES || job->wish.by_reference;
+}
 
 // ---- job.c: what draws
 
