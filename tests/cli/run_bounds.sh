@@ -1,7 +1,7 @@
 #!/bin/sh
 # glint render --max-error keeps its bound: what it renders is compared with the reference at many samples.
 # Usage: run_bounds.sh GLINT SOURCE_FOLDER WORK_FOLDER [whole | random SEED FIRST COUNT]
-#   else: two small scenes against 64 samples. whole: 20 scenes, three bounds each, against 256 samples; some minutes.
+#   else: three small scenes against 64 samples. whole: 21 scenes, three bounds each, against 256 samples; some minutes.
 #   random: scenes of tests/sweep, four bounds each, and what each search took: processor time, and that of its picture alone.
 . "$(dirname -- "$0")/lib.sh"
 export XDG_CACHE_HOME="$work/cache"
@@ -15,11 +15,11 @@ elif [ "$scenes_of" = whole ]; then
     size=96x72 samples=256
     scenes='showcase tinyraytracer elements/background_color elements/background_image elements/camera elements/checker
         elements/image elements/include elements/lights elements/material_map elements/materials elements/models
-        elements/rectangles elements/refraction elements/shadows elements/smooth elements/spheres elements/sunlight
+        elements/rectangles elements/refraction elements/seen_lights elements/shadows elements/smooth elements/spheres elements/sunlight
         elements/trace elements/word'
 else
     size=48x32 samples=64
-    scenes='elements/spheres elements/trace'
+    scenes='elements/spheres elements/trace elements/seen_lights'
 fi
 
 # timed COMMAND...: its status; what it took is in taken.txt.

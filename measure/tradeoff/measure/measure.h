@@ -148,9 +148,9 @@ void device_close(struct measuring *s);
 // ---- measure_without.c
 
 // The parts among KNOBS_WITHOUT that a scene with these features and this camera has.
-uint32_t without_parts(uint32_t features, const struct view_camera *camera);
+uint32_t without_parts(uint64_t features, const struct view_camera *camera);
 // The features that go with the omitted parts.
-uint32_t without_features(uint32_t without, const struct view_camera *camera);
+uint64_t without_features(uint32_t without, const struct view_camera *camera);
 // The reference of the scene without those parts; owned by the measuring, valid until the next call. NULL: no
 // memory.
 struct reference_source *without_source(struct measuring *s, bool shadows, uint32_t without);

@@ -419,13 +419,44 @@ static void measure_small(struct measuring *s, struct row *row) {
     row->value[s->out->options.metric] = distance(s, width, height, s->shown, s->search.best);
 }
 
+// The row's value, which may be too good by some share.
+static double safe_value(const struct measuring *s, const struct row *row) {
+    const enum metric metric = s->out->options.metric;
+    return plan_search_safe(metric, row->value[metric], MARGIN + MARGIN_OF_ONE / row->setting.samples);
+}
+
+// What is small and bright, a few samples may all have missed: if they seem to keep the bound, more of them
+// are drawn, with which they are compared.
+static enum tradeoff_status look_again(struct measuring *s, struct row *row) {
+    struct search_pictures *p = &s->search;
+    const enum metric metric = s->out->options.metric;
+    const uint32_t samples = row->setting.samples;
+    const uint32_t more = plan_search_more(&row->setting);
+    const double value = row->value[metric];
+    enum tradeoff_status status = TRADEOFF_DONE;
+    if (more == 0 ||
+        !(metric_error(metric, safe_value(s, row)) <= metric_error(metric, s->out->options.max_error)))
+        return status;
+    if (p->older_samples + p->newer_samples != samples) {
+        begin_row(p, &row->setting, values_of(s));
+        status = add_samples(s, &row->setting, values_of(s), samples);
+    }
+    if (status == TRADEOFF_DONE)
+        status = add_samples(s, &row->setting, values_of(s), more);
+    if (status != TRADEOFF_DONE)
+        return status;
+    row_pictures(s, &row->setting);
+    measure_whole(s, row);
+    row->value[metric] = worse(metric, value, row->value[metric]);
+    return status;
+}
+
 static void fill_row(struct measuring *s, struct row *row) {
     const struct search_pictures *p = &s->search;
     const struct setting *setting = &row->setting;
     const enum metric metric = s->out->options.metric;
     const double drawn = p->older_samples + p->newer_samples;
-    row->value[metric] =
-        plan_search_safe(metric, row->value[metric], MARGIN + MARGIN_OF_ONE / setting->samples);
+    row->value[metric] = safe_value(s, row);
     row->time_ms = row->time_low_ms = row->time_high_ms = 1e3 * p->row_seconds * setting->samples / drawn;
     row->not_finite = p->row_not_finite;
     // Among rows that take equally long, the one with fewer samples.
@@ -450,12 +481,17 @@ enum tradeoff_status search_row(struct measuring *s, struct row *row) {
     if (is_whole) {
         row_pictures(s, setting);
         measure_whole(s, row);
+        status = look_again(s, row);
     } else {
         float *best = s->search.best;
         s->search.best = s->search.tried; // of no use for this row
         row_pictures(s, setting);
         s->search.best = best;
         measure_small(s, row);
+    }
+    if (status != TRADEOFF_DONE) {
+        s->search.row_setting = (struct setting){0};
+        return status;
     }
     if (isnan(row->value[s->out->options.metric]) && !s->search.row_not_finite)
         return TRADEOFF_MEMORY;

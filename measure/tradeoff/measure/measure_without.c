@@ -20,7 +20,7 @@ enum {
     PARTS = sizeof parts / sizeof *parts
 };
 
-uint32_t without_parts(uint32_t features, const struct view_camera *camera) {
+uint32_t without_parts(uint64_t features, const struct view_camera *camera) {
     uint32_t has = 0;
     for (int i = 0; i < PARTS; i++)
         if (features & parts[i].feature && (parts[i].knob != KNOB_LENS || camera->lens_radius > 0))
@@ -28,7 +28,7 @@ uint32_t without_parts(uint32_t features, const struct view_camera *camera) {
     return has;
 }
 
-uint32_t without_features(uint32_t without, const struct view_camera *camera) {
+uint64_t without_features(uint32_t without, const struct view_camera *camera) {
     uint32_t features = 0;
     for (int i = 0; i < PARTS; i++)
         if (without >> parts[i].knob & 1 &&

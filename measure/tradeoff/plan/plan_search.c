@@ -35,6 +35,11 @@ static const double LOWER_SHARE = 0.1;
 // Share of the remaining time, for the next try.
 static const double TIME_SHARE = 0.97;
 
+// Up to so many samples may all have missed what is small and bright.
+static const uint32_t FEW = 16;
+// Samples of all pixels that are soon drawn, and the most for each sample of a picture.
+static const double MORE_ALL = 1 << 20, MORE_EACH = 4;
+
 struct searching {
     const struct plan_search_input *input;
     const struct row *rows;
@@ -422,6 +427,12 @@ double plan_search_safe(enum metric metric, double value, double share) {
     if (metric == METRIC_SSIM)
         return 1 - (1 + share) * (1 - value);
     return (1 + share) * value;
+}
+
+uint32_t plan_search_more(const struct setting *setting) {
+    const double pixels = (double)setting->width * setting->height;
+    const double each = fmin(fmax(MORE_ALL / (pixels * setting->samples), 1), MORE_EACH);
+    return setting->samples <= FEW ? (uint32_t)(each * setting->samples) : 0;
 }
 
 double plan_search_rays(void) {
