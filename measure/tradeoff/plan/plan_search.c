@@ -38,7 +38,7 @@ static const double TIME_SHARE = 0.97;
 // Up to so many samples may all have missed what is small and bright.
 static const uint32_t FEW = 16;
 // Samples of all pixels that are soon drawn, and the most for each sample of a picture.
-static const double MORE_ALL = 1 << 20, MORE_EACH = 4;
+static const double MORE_ALL = 1 << 20, MORE_EACH = 2;
 
 struct searching {
     const struct plan_search_input *input;

@@ -67,7 +67,7 @@ uint64_t plan_search_pilot(const struct plan_search_pilot *pilots, uint32_t coun
 double plan_search_reach(uint32_t samples, uint32_t older, uint32_t newer);
 
 // How many samples to draw beyond those of a whole picture, in order to judge by them whether it keeps its
-// bound; 0: its own are enough. At most four times as many.
+// bound; 0: its own are enough. At most twice as many.
 uint32_t plan_search_more(const struct setting *setting);
 
 #endif
