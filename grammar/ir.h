@@ -217,6 +217,13 @@ struct ir_rectangle {
     struct ir_material_ref material;
 };
 
+struct ir_box {
+    struct ir_head head;
+    str name;
+    vec3 center, size, rotation; // degrees, as a model's
+    struct ir_material_ref material;
+};
+
 struct ir_map_entry {
     struct ir_head head;
     str from; // name of a material in the mesh
@@ -300,6 +307,10 @@ struct ir_rectangles {
     struct ir_rectangle *items;
     uint32_t count, capacity;
 };
+struct ir_boxes {
+    struct ir_box *items;
+    uint32_t count, capacity;
+};
 struct ir_models {
     struct ir_model *items;
     uint32_t count, capacity;
@@ -320,13 +331,14 @@ struct ir_scene {
     struct ir_materials materials; // named and anonymous ones
     struct ir_spheres spheres;
     struct ir_rectangles rectangles;
+    struct ir_boxes boxes;
     struct ir_models models;
     struct ir_animation animation; // at its defaults once a frame was taken: ir_origin.motion
 };
 
-// Bodies are numbered spheres, rectangles, models, each in file order.
+// Bodies are numbered spheres, rectangles, boxes, models, each in file order.
 static inline uint32_t ir_body_count(const struct ir_scene *scene) {
-    return scene->spheres.count + scene->rectangles.count + scene->models.count;
+    return scene->spheres.count + scene->rectangles.count + scene->boxes.count + scene->models.count;
 }
 
 #endif

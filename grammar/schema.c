@@ -412,6 +412,25 @@ static const struct schema_row rectangle_rows[] = {
 const struct schema_element SCHEMA_RECTANGLE = {ELEMENT(
     "rectangle", "Rectangle", ir_rectangle, rectangle_rows, "A flat parallelogram, seen from both sides.")};
 
+static const struct schema_row box_rows[] = {
+    BODY_NAME(ir_box, "crate"),
+    {.name = "center", .element = "Center", FIELD(ir_box, center), .example = "0 0.5 0",
+     .also = "pos position location origin translation middle",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
+     .doc = "Middle of the box."},
+    {.name = "size", .element = "Size", FIELD(ir_box, size), .example = "2 1 0.5",
+     .also = "scale dimensions extent lengths edges",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_LENGTH, .required = true, .fill = true,
+     .doc = "Lengths of the edges along x, y and z, before the box is turned; one number is a cube."},
+    {.name = "rotation", .element = "Rotation", FIELD(ir_box, rotation), .example = "0 30 0",
+     .also = "orientation angles rotate",
+     .unit = SCHEMA_UNIT_DEGREES, .range = SCHEMA_RANGE_ANGLE, .standard = "0 0 0",
+     .doc = "Turns the box around its middle, about x, then y, then z."},
+    BODY_MATERIAL(ir_box),
+};
+const struct schema_element SCHEMA_BOX = {
+    ELEMENT("box", "Box", ir_box, box_rows, "A box: six faces at right angles, with an inside.")};
+
 static const struct schema_row map_entry_rows[] = {
     {.name = "from", FIELD(ir_map_entry, from), .example = "Gold", .text = SCHEMA_TEXT_FOREIGN_NAME,
      .key = true, .required = true, .doc = "Name of a material in the mesh file."},
@@ -491,6 +510,9 @@ static const struct schema_row scene_rows[] = {
     {.name = "rectangle", .element = "Rectangle", .plural = "rectangles", FIELD(ir_scene, rectangles),
      .also = "rect rects quad quads",
      .many = SCHEMA_SEQUENCE, .child = &SCHEMA_RECTANGLE, .feature = FEATURE_TRIANGLES, .doc = "Rectangles."},
+    {.name = "box", .element = "Box", .plural = "boxes", FIELD(ir_scene, boxes),
+     .also = "cube cubes cuboid cuboids block blocks",
+     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_BOX, .feature = FEATURE_TRIANGLES, .doc = "Boxes."},
     {.name = "model", .element = "Model", .plural = "models", FIELD(ir_scene, models),
      .also = "mesh meshes object objects shape shapes obj",
      .many = SCHEMA_SEQUENCE, .child = &SCHEMA_MODEL, .feature = FEATURE_TRIANGLES, .doc = "Meshes placed in the scene."},
@@ -511,7 +533,8 @@ const struct schema_element *const schema_elements[] = {
     &SCHEMA_PAINT,     &SCHEMA_CHECKER,
     &SCHEMA_TEXTURE,   &SCHEMA_HIGHLIGHT,
     &SCHEMA_SPHERE,    &SCHEMA_RECTANGLE,
-    &SCHEMA_MODEL,     &SCHEMA_MAP_ENTRY,
-    &SCHEMA_ANIMATION, &SCHEMA_TRACK,
-    &SCHEMA_KEYFRAME,  NULL,
+    &SCHEMA_BOX,       &SCHEMA_MODEL,
+    &SCHEMA_MAP_ENTRY, &SCHEMA_ANIMATION,
+    &SCHEMA_TRACK,     &SCHEMA_KEYFRAME,
+    NULL,
 };

@@ -37,6 +37,7 @@
         struct ir_materials: SCHEMA_LIST,                                                                    \
         struct ir_spheres: SCHEMA_LIST,                                                                      \
         struct ir_rectangles: SCHEMA_LIST,                                                                   \
+        struct ir_boxes: SCHEMA_LIST,                                                                   \
         struct ir_models: SCHEMA_LIST,                                                                       \
         struct ir_map_entries: SCHEMA_LIST,                                                                  \
         struct ir_tracks: SCHEMA_LIST,                                                                       \

@@ -9,7 +9,7 @@ static const char opening[] =
     "\n"
     "<!-- Made from grammar/concepts.def by the target `emitted`; do not edit. -->\n"
     "\n"
-    "glint shows spheres, rectangles and triangle meshes, lit by lights with and without extent, with "
+    "glint shows spheres, rectangles, boxes and triangle meshes, lit by lights with and without extent, with "
     "mirrors "
     "and\n"
     "glass. Other tools know more, or the same under another name. This page lists what you may look for, "

@@ -332,6 +332,15 @@ static void check_rectangle(const struct rules *rules, const struct ir_rectangle
         report_leaving(rules, schema, rectangle, rectangle->name, by_u ? "edge_u" : "edge_v");
 }
 
+// A corner, which rotation may turn into any direction, is at most the sum of the edges from the middle.
+static void check_box(const struct rules *rules, const struct ir_box *box) {
+    const struct schema_element *schema = &SCHEMA_BOX;
+    if (is_poisoned(schema, box, "center") || is_poisoned(schema, box, "size"))
+        return;
+    if (!(vec3_max_abs(box->center) + box->size.x + box->size.y + box->size.z <= COORDINATE_MAX))
+        report_leaving(rules, schema, box, box->name, "size");
+}
+
 static void check_model(const struct rules *rules, const struct ir_model *model) {
     const struct schema_element *schema = &SCHEMA_MODEL;
     bool zero = model->scale.x == 0 || model->scale.y == 0 || model->scale.z == 0;
@@ -375,6 +384,8 @@ void validate_element(struct loader *loader, const struct schema_element *schema
         check_sphere(&rules, memory);
     else if (schema == &SCHEMA_RECTANGLE)
         check_rectangle(&rules, memory);
+    else if (schema == &SCHEMA_BOX)
+        check_box(&rules, memory);
     else if (schema == &SCHEMA_MODEL)
         check_model(&rules, memory);
 }
@@ -391,6 +402,8 @@ void validate_scene(struct loader *loader, const struct ir_scene *scene) {
         validate_element(loader, &SCHEMA_SPHERE, &scene->spheres.items[i]);
     for (uint32_t i = 0; i < scene->rectangles.count; i++)
         validate_element(loader, &SCHEMA_RECTANGLE, &scene->rectangles.items[i]);
+    for (uint32_t i = 0; i < scene->boxes.count; i++)
+        validate_element(loader, &SCHEMA_BOX, &scene->boxes.items[i]);
     for (uint32_t i = 0; i < scene->models.count; i++)
         validate_element(loader, &SCHEMA_MODEL, &scene->models.items[i]);
     arena_finish(&loader->scratch);
