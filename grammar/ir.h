@@ -68,6 +68,22 @@ enum ir_wrap {
     IR_WRAP_CLAMP,
     IR_WRAP_MIRROR
 };
+enum ir_mesh_kind {
+    IR_MESH_LATHE,
+    IR_MESH_TORUS,
+    IR_MESH_EXTRUDE,
+    IR_MESH_FACES,
+    IR_MESH_TEXT
+};
+enum ir_curve {
+    IR_CURVE_LINEAR,
+    IR_CURVE_SMOOTH
+};
+enum ir_align {
+    IR_ALIGN_LEFT,
+    IR_ALIGN_CENTER,
+    IR_ALIGN_RIGHT
+};
 enum ir_interpolation {
     IR_INTERPOLATION_LINEAR,
     IR_INTERPOLATION_SMOOTH,
@@ -207,39 +223,141 @@ struct ir_sphere {
     str name;
     vec3 center;
     double radius;
-    struct ir_material_ref material;
+    struct ir_reference material;
 };
 
 struct ir_rectangle {
     struct ir_head head;
     str name;
     vec3 corner, edge_u, edge_v;
-    struct ir_material_ref material;
+    struct ir_reference material;
 };
 
 struct ir_box {
     struct ir_head head;
     str name;
     vec3 center, size, rotation; // degrees, as a model's
-    struct ir_material_ref material;
+    struct ir_reference material;
 };
 
 struct ir_map_entry {
     struct ir_head head;
     str from; // name of a material in the mesh
-    struct ir_material_ref to;
+    struct ir_reference to;
 };
 struct ir_map_entries {
     struct ir_map_entry *items;
     uint32_t count, capacity;
 };
 
+// ---- meshes that the file describes
+
+struct ir_outline_point {
+    struct ir_head head;
+    struct ir_point at;
+};
+struct ir_outline {
+    struct ir_outline_point *items;
+    uint32_t count, capacity;
+};
+struct ir_hole {
+    struct ir_head head;
+    struct ir_outline points;
+};
+struct ir_holes {
+    struct ir_hole *items;
+    uint32_t count, capacity;
+};
+
+struct ir_lathe {
+    struct ir_head head;
+    struct ir_outline profile; // x: distance from the axis
+    unsigned curve;            // ir_curve
+    double angle;              // degrees
+};
+
+struct ir_torus {
+    struct ir_head head;
+    double radius, tube;
+};
+
+struct ir_extrude {
+    struct ir_head head;
+    struct ir_outline outline;
+    struct ir_holes holes;
+    unsigned curve; // ir_curve
+    double height, bevel;
+};
+
+struct ir_vertex {
+    struct ir_head head;
+    vec3 at;
+};
+struct ir_vertices {
+    struct ir_vertex *items;
+    uint32_t count, capacity;
+};
+struct ir_coordinate {
+    struct ir_head head;
+    struct ir_pair at;
+};
+struct ir_coordinates {
+    struct ir_coordinate *items;
+    uint32_t count, capacity;
+};
+struct ir_corner {
+    struct ir_head head;
+    int32_t vertex;
+};
+struct ir_corners {
+    struct ir_corner *items;
+    uint32_t count, capacity;
+};
+struct ir_face {
+    struct ir_head head;
+    struct ir_corners corners;
+};
+struct ir_faces_list {
+    struct ir_face *items;
+    uint32_t count, capacity;
+};
+struct ir_faces {
+    struct ir_head head;
+    struct ir_vertices vertices;
+    struct ir_coordinates uv; // none, or one of each vertex
+    struct ir_faces_list faces;
+};
+
+struct ir_text {
+    struct ir_head head;
+    str string;
+    str font; // path as written
+    double height, depth, bevel;
+    unsigned align; // ir_align
+};
+
+struct ir_mesh {
+    struct ir_head head;
+    str name;      // empty: anonymous, written inline where it is used
+    unsigned kind; // ir_mesh_kind
+    struct ir_lathe lathe;
+    struct ir_torus torus;
+    struct ir_extrude extrude;
+    struct ir_faces faces;
+    struct ir_text text;
+    double tolerance; // share of the size
+};
+struct ir_meshes {
+    struct ir_mesh *items;
+    uint32_t count, capacity;
+};
+
 struct ir_model {
     struct ir_head head;
     str name;
-    str mesh; // path as written
-    str part; // of a mesh file that has several; empty: all of it
-    struct ir_material_ref material;
+    struct ir_reference mesh; // without an index the path of a file
+    str part;                 // of a mesh file that has several; empty: all of it
+    struct ir_reference material;
     struct ir_map_entries material_map;
     bool smooth;
     vec3 scale, rotation, translation; // degrees; T·Rz·Ry·Rx·S
@@ -329,6 +447,7 @@ struct ir_scene {
     struct ir_cameras cameras;
     struct ir_lights lights;
     struct ir_materials materials; // named and anonymous ones
+    struct ir_meshes meshes;       // the same
     struct ir_spheres spheres;
     struct ir_rectangles rectangles;
     struct ir_boxes boxes;

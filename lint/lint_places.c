@@ -57,7 +57,7 @@ static uint32_t known_source(const struct source_set *sources, str path) {
 void lint_note_mesh(struct lint *lint, struct lint_mesh *mesh, uint32_t line, const char *format, ...) {
     char text[NOTE_MAX];
     va_list args;
-    if (mesh->mesh->path.len == 0) // the program's own, which nobody can read
+    if (mesh->mesh->is_made)
         return;
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);

@@ -50,6 +50,7 @@ static const struct mesh mesh = {
     .triangle_count = COUNT(triangles),
     .groups = groups,
     .group_count = COUNT(groups),
+    .is_made = true,
     .is_binary = true,
     .closed = true,
     .volume = 1,

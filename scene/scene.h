@@ -44,8 +44,8 @@ struct scene_body {
     // space is the unit square. A mesh: T·R·S.
     affine3 object_to_world;
     double radius; // of a sphere
-    vec3 cells; // lengths by which a checker counts its cells, per unit of object space: of a box its edges;
-                // else 1
+    vec3 cells; // lengths by which a checker counts its cells, per unit of object space: of a box its edges,
+                // nearly; else 1
     const struct mesh *mesh;   // NULL: another shape, or not loaded
     const uint32_t *materials; // by group: indices into scene.materials
     uint32_t group_count;      // 1 except for meshes

@@ -147,6 +147,8 @@ str say_expected(struct arena *arena, const struct schema_row *row) {
                          : STR("three numbers x, y, z");
     case SCHEMA_PAIR:
         return row->fill ? STR("two numbers u, v, or one number for both") : STR("two numbers u, v");
+    case SCHEMA_POINT:
+        return STR("two numbers x, y");
     case SCHEMA_COLOR:
         return STR("a colour (three numbers r, g, b, one number for all three, or #rrggbb)");
     case SCHEMA_WEIGHTS:

@@ -102,11 +102,11 @@ static bool make_list(struct generator *g, const struct schema_row *row, void *e
 
 // ---- values
 
-static bool make_reference(struct generator *g, const struct schema_row *row, struct ir_material_ref *out) {
+static bool make_reference(struct generator *g, const struct schema_row *row, struct ir_reference *out) {
     const struct schema_row *pool = ir_walk_pool(row->child);
     uint32_t named = count_named(g, row);
     if (row->element && (named == 0 || generate_chance(g, 30))) {
-        *out = (struct ir_material_ref){
+        *out = (struct ir_reference){
             .index = ir_walk_append(g->arena, pool, g->scene, new_element(g, row->child))};
         return true;
     }
@@ -116,7 +116,7 @@ static bool make_reference(struct generator *g, const struct schema_row *row, st
         const void *item = ir_walk_item(pool, list, i);
         if (ir_walk_is_anonymous(pool->child, item) || wanted-- > 0)
             continue;
-        *out = (struct ir_material_ref){.name = ir_walk_key(pool->child, item), .index = i};
+        *out = (struct ir_reference){.name = ir_walk_key(pool->child, item), .index = i};
         return true;
     }
     return false;

@@ -89,7 +89,7 @@ static void try_value(struct table *t, const struct schema_element *schema, cons
     const int32_t integer = row->kind == SCHEMA_INTEGER ? *(int32_t *)field + 1 : 0;
     const unsigned word = row->kind == SCHEMA_WORD ? *(unsigned *)field + 1 : 0;
     const str text = STR("another text");
-    const struct ir_material_ref name = {STR("another name"), 0}, index = {{"", 0}, 12345};
+    const struct ir_reference name = {STR("another name"), 0}, index = {{"", 0}, 12345};
     switch (row->kind) {
     case SCHEMA_BOOLEAN:
         try_bytes(t, schema, what, field, &flipped, sizeof flipped);

@@ -69,7 +69,7 @@ struct view_light *kit_light(struct kit *kit, vec3 position) {
     return light;
 }
 
-void kit_use_material(struct ir_material_ref *ref, uint32_t index) {
+void kit_use_material(struct ir_reference *ref, uint32_t index) {
     ref->index = index;
 }
 
