@@ -137,8 +137,8 @@ static bool make_any(struct making *m, const struct made_to *to) {
 
 static void make(void *context) {
     struct making *m = context;
-    const struct made_to to = {
-        m->scratch, m->loader->input->limits->value[LIMIT_MESH_TRIANGLES], .coordinates = true};
+    const struct made_to to = {m->scratch, m->loader->input->limits->value[LIMIT_MESH_TRIANGLES],
+                               .coordinates = true};
     if (!make_any(m, &to))
         return;
     m->made.polygons.is_binary = true;
@@ -236,8 +236,7 @@ static bool find_font(struct making *m, struct file_read *identity) {
     const str font = m->ir->text.font;
     file->what = "font";
     file->limit = LIMIT_FONT_BYTES;
-    file->named_at =
-        ir_place_value(file->input->origin, &m->ir->text.head, &SCHEMA_MESH_TEXT, "font");
+    file->named_at = ir_place_value(file->input->origin, &m->ir->text.head, &SCHEMA_MESH_TEXT, "font");
     if (!schema_file_fits(SCHEMA_FILE_FONT, font)) {
         asset_report_named(file, DIAG_FILE_KIND, "'%.*s' is not a font", STR_ARG(font));
         diag_help(file->input->sink, "fonts end in %.*s",

@@ -57,7 +57,8 @@ static void consider(struct meshes_ahead *ahead, const struct loader *loader, co
     struct file_read identity;
     str path;
     const enum mesh_format_id format = mesh_format_of_path(model->mesh.name);
-    if (format == MESH_FORMAT_COUNT || format == MESH_FORMAT_GLTF || !is_new_name(ahead, model->mesh.name, at) ||
+    if (format == MESH_FORMAT_COUNT || format == MESH_FORMAT_GLTF ||
+        !is_new_name(ahead, model->mesh.name, at) ||
         files_resolve(input->files, asset_base(input, at), model->mesh.name, &path) != FILE_OK ||
         files_identify(input->files, path, &identity) != FILE_OK || identity.size_bytes > GROUP_BYTES ||
         identity.size_bytes > input->limits->value[LIMIT_MESH_BYTES] ||

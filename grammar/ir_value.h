@@ -38,8 +38,9 @@ struct ir_point {
 
 // To a material or a mesh.
 struct ir_reference {
-    str name;       // as written; empty for an element in place
-    uint32_t index; // in the scene's list of its kind; IR_NO_INDEX: none written, or not found, or a file's path
+    str name; // as written; empty for an element in place
+    uint32_t
+        index; // in the scene's list of its kind; IR_NO_INDEX: none written, or not found, or a file's path
 };
 
 // How a picture is displayed: words of the image element, known to pictures without a scene too.

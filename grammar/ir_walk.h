@@ -47,8 +47,8 @@ int ir_walk_short(const struct ir_scene *scene, const struct schema_element *sch
 // The components of a vector, colour or weights; returns their number, 0 for other kinds.
 uint32_t ir_walk_components(const struct schema_row *row, const void *field, double out[4]);
 
-// The path of a file that this row of an element holds, written or not; NULL: it holds none. A reference has one
-// if the row may name a file and the text is no name, but has a point or a slash.
+// The path of a file that this row of an element holds, written or not; NULL: it holds none. A reference has
+// one if the row may name a file and the text is no name, but has a point or a slash.
 const str *ir_walk_path(const struct schema_row *row, const void *element);
 
 // Calls `visit`, which may change it, for each file path in the scene.

@@ -448,7 +448,7 @@ const struct schema_element SCHEMA_OUTLINE_POINT = {
 
 static const struct schema_row lathe_rows[] = {
     {.name = "point", .element = "Point", .plural = "profile", FIELD(ir_lathe, profile),
-     .also = "points outline contour curve_points", .many = SCHEMA_SEQUENCE, .child = &SCHEMA_OUTLINE_POINT,
+     .also = "points outline contour curve_points", .many = SCHEMA_SEQUENCE, .child = &SCHEMA_OUTLINE_POINT, .required = true,
      .doc = "The outline that is turned around the y axis: x is the distance from the axis, y the height."},
     {.name = "curve", FIELD(ir_lathe, curve), .example = "smooth", .words = curve_words, .word_docs = curve_docs,
      .also = "interpolation spline type", .standard = "linear", .doc = "What lies between the points."},
@@ -472,13 +472,13 @@ const struct schema_element SCHEMA_TORUS = {
 
 static const struct schema_row hole_rows[] = {
     {.name = "point", .element = "Point", .plural = "outline", FIELD(ir_hole, points), .short_form = true,
-     .also = "points contour", .many = SCHEMA_SEQUENCE, .child = &SCHEMA_OUTLINE_POINT, .doc = "The hole's points, in either sense."},
+     .also = "points contour", .many = SCHEMA_SEQUENCE, .child = &SCHEMA_OUTLINE_POINT, .required = true, .doc = "The hole's points, in either sense."},
 };
 const struct schema_element SCHEMA_HOLE = {ELEMENT("hole", "Hole", ir_hole, hole_rows, "A hole in an outline.")};
 
 static const struct schema_row extrude_rows[] = {
     {.name = "point", .element = "Point", .plural = "outline", FIELD(ir_extrude, outline),
-     .also = "points profile contour shape polygon", .many = SCHEMA_SEQUENCE, .child = &SCHEMA_OUTLINE_POINT,
+     .also = "points profile contour shape polygon", .many = SCHEMA_SEQUENCE, .child = &SCHEMA_OUTLINE_POINT, .required = true,
      .doc = "The outline's points, in either sense; the last is joined to the first."},
     {.name = "hole", .element = "Hole", .plural = "holes", FIELD(ir_extrude, holes), .also = "cutouts inner",
      .many = SCHEMA_SEQUENCE, .child = &SCHEMA_HOLE,
@@ -511,17 +511,17 @@ static const struct schema_row corner_rows[] = {
 const struct schema_element SCHEMA_CORNER = {ELEMENT("corner", "Corner", ir_corner, corner_rows, "A corner of a face.")};
 static const struct schema_row face_rows[] = {
     {.name = "corner", .element = "Corner", .plural = "corners", FIELD(ir_face, corners), .short_form = true,
-     .also = "indices vertices", .many = SCHEMA_SEQUENCE, .child = &SCHEMA_CORNER,
+     .also = "indices vertices", .many = SCHEMA_SEQUENCE, .child = &SCHEMA_CORNER, .required = true,
      .doc = "The face's vertices by number, at least three, counter-clockwise as seen from outside."},
 };
 const struct schema_element SCHEMA_FACE = {ELEMENT("face", "Face", ir_face, face_rows, "A face of a mesh.")};
 static const struct schema_row faces_rows[] = {
     {.name = "vertex", .element = "Vertex", .plural = "vertices", FIELD(ir_faces, vertices), .also = "points positions verts",
-     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_VERTEX, .doc = "The vertices, which faces name by their number."},
+     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_VERTEX, .required = true, .doc = "The vertices, which faces name by their number."},
     {.name = "uv", .element = "Uv", .plural = "uv", FIELD(ir_faces, uv), .also = "uvs texcoords texture_coordinates",
      .many = SCHEMA_SEQUENCE, .child = &SCHEMA_UV, .doc = "Places in an image, one of each vertex."},
     {.name = "face", .element = "Face", .plural = "faces", FIELD(ir_faces, faces), .also = "triangles polygons indices",
-     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_FACE, .doc = "The faces, of three vertices or more."},
+     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_FACE, .required = true, .doc = "The faces, of three vertices or more."},
 };
 const struct schema_element SCHEMA_FACES = {
     ELEMENT("faces", "Faces", ir_faces, faces_rows, "Vertices, and the faces between them.")};

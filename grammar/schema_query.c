@@ -249,8 +249,7 @@ void schema_set_field(const struct schema_row *row, void *field, const char *tex
         *(struct ir_weights *)field = (struct ir_weights){n[0], n[1], n[2], n[3]};
         break;
     case SCHEMA_REFERENCE:
-        *(struct ir_reference *)field =
-            (struct ir_reference){.name = str_from(text), .index = IR_NO_INDEX};
+        *(struct ir_reference *)field = (struct ir_reference){.name = str_from(text), .index = IR_NO_INDEX};
         break;
     case SCHEMA_ELEMENT:
     case SCHEMA_LIST:

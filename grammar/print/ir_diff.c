@@ -122,7 +122,8 @@ static bool same_components(const struct schema_row *row, const void *a, const v
 
 static bool same_text(struct differ *d, const struct pair *p, uint32_t i, str a, str b) {
     const struct schema_row *row = &p->schema->rows[i];
-    if (!ir_walk_path(row, p->a) || !ir_walk_path(row, p->b) || !a.len || !b.len || !d->a->file || !d->b->file)
+    if (!ir_walk_path(row, p->a) || !ir_walk_path(row, p->b) || !a.len || !b.len || !d->a->file ||
+        !d->b->file)
         return str_equal(a, b);
     return str_equal(d->a->file(d->a->context, d->arena, row_place(d->a, p->a, i), a),
                      d->b->file(d->b->context, d->arena, row_place(d->b, p->b, i), b));

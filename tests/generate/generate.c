@@ -104,7 +104,12 @@ static bool make_list(struct generator *g, const struct schema_row *row, void *e
 
 static bool make_reference(struct generator *g, const struct schema_row *row, struct ir_reference *out) {
     const struct schema_row *pool = ir_walk_pool(row->child);
+    const struct generate_paths *paths = paths_of(g, row);
     uint32_t named = count_named(g, row);
+    if (paths->count > 0 && generate_chance(g, 60)) {
+        *out = (struct ir_reference){paths->items[generate_below(g, paths->count)], IR_NO_INDEX};
+        return true;
+    }
     if (row->element && (named == 0 || generate_chance(g, 30))) {
         *out = (struct ir_reference){
             .index = ir_walk_append(g->arena, pool, g->scene, new_element(g, row->child))};
@@ -202,6 +207,11 @@ static bool make_value(struct generator *g, const struct schema_row *row, void *
     case SCHEMA_PAIR: {
         const vec3 both = make_vector(g, row);
         *(struct ir_pair *)field = (struct ir_pair){both.x, both.y};
+        return true;
+    }
+    case SCHEMA_POINT: {
+        const vec3 both = make_vector(g, row);
+        *(struct ir_point *)field = (struct ir_point){both.x, both.y};
         return true;
     }
     case SCHEMA_COLOR:
