@@ -439,7 +439,7 @@ const struct schema_element SCHEMA_BOX = {
     ELEMENT("box", "Box", ir_box, box_rows, "A box: six faces at right angles, with an inside.")};
 
 static const struct schema_row point_rows[] = {
-    {.name = "at", FIELD(ir_outline_point, at), .example = "1 0.5", .unit = SCHEMA_UNIT_SCENE,
+    {.name = "at", .element = "At", FIELD(ir_outline_point, at), .example = "1 0.5", .unit = SCHEMA_UNIT_SCENE,
      .range = SCHEMA_RANGE_COORDINATE, .required = true, .short_form = true,
      .doc = "The point: x to the right, y upwards."},
 };
@@ -494,12 +494,12 @@ const struct schema_element SCHEMA_EXTRUDE = {
     ELEMENT("extrude", "Extrude", ir_extrude, extrude_rows, "An outline in the x,y plane, drawn along z: a gable, a letter, a star.")};
 
 static const struct schema_row vertex_rows[] = {
-    {.name = "at", FIELD(ir_vertex, at), .example = "1 0 0", .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE,
+    {.name = "at", .element = "At", FIELD(ir_vertex, at), .example = "1 0 0", .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE,
      .required = true, .short_form = true, .doc = "The vertex."},
 };
 const struct schema_element SCHEMA_VERTEX = {ELEMENT("vertex", "Vertex", ir_vertex, vertex_rows, "A vertex of a mesh.")};
 static const struct schema_row uv_rows[] = {
-    {.name = "at", FIELD(ir_coordinate, at), .example = "1 0", .range = SCHEMA_RANGE_SHIFT, .required = true, .short_form = true,
+    {.name = "at", .element = "At", FIELD(ir_coordinate, at), .example = "1 0", .range = SCHEMA_RANGE_SHIFT, .required = true, .short_form = true,
      .doc = "The place in an image: u to the right, v upwards, an image from 0 to 1."},
 };
 const struct schema_element SCHEMA_UV = {

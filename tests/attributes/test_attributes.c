@@ -165,6 +165,9 @@ static bool change(const struct bench *b, const struct use *use, void *field) {
     case SCHEMA_PAIR:
         ((struct ir_pair *)field)->u = other_number(row, ((struct ir_pair *)field)->u);
         return true;
+    case SCHEMA_POINT:
+        ((struct ir_point *)field)->y = other_number(row, ((struct ir_point *)field)->y);
+        return true;
     case SCHEMA_VECTOR:
         *(vec3 *)field = other_vector(row, *(vec3 *)field);
         return true;

@@ -7,6 +7,9 @@
 #include "grammar/schema.h"
 #include "tests/generate/generate.h"
 
+struct ir_mesh;
+struct ir_scene;
+
 struct generator {
     uint64_t state;
     const struct generate_options *options;

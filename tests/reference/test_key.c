@@ -110,6 +110,7 @@ static void try_value(struct table *t, const struct schema_element *schema, cons
         try_numbers(t, schema, what, field, 3);
         break;
     case SCHEMA_PAIR:
+    case SCHEMA_POINT:
         try_numbers(t, schema, what, field, 2);
         break;
     case SCHEMA_WEIGHTS:

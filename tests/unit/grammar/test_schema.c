@@ -38,7 +38,7 @@ static const struct {
 
 static bool has_numbers(const struct schema_row *row) {
     return row->kind == SCHEMA_INTEGER || row->kind == SCHEMA_NUMBER || row->kind == SCHEMA_VECTOR ||
-           row->kind == SCHEMA_PAIR || row->kind == SCHEMA_COLOR || row->kind == SCHEMA_WEIGHTS;
+           row->kind == SCHEMA_PAIR || row->kind == SCHEMA_POINT || row->kind == SCHEMA_COLOR || row->kind == SCHEMA_WEIGHTS;
 }
 
 // ---- fields
@@ -480,6 +480,7 @@ static void check_scene_text(const struct schema_row *row, const char *text) {
         check_numbers(row, text, 1);
         break;
     case SCHEMA_PAIR:
+    case SCHEMA_POINT:
         check_numbers(row, text, 2);
         break;
     case SCHEMA_VECTOR:
