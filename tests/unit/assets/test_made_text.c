@@ -176,6 +176,28 @@ static void test_faults(void **state) {
     free((char *)font.ptr);
 }
 
+// A font of this repository: letters of overlapping boxes and of curves, with kerning.
+static void test_overlaps(void **state) {
+    (void)state;
+    size_t size;
+    char *bytes = read_file("tests/fuzz/seeds/font/letters.ttf", &size);
+    if (!bytes || !made_has_fonts()) {
+        free(bytes);
+        skip();
+    }
+    const str font = {bytes, size};
+    made_kit_closed(&kit, build(text_of(font, "H")));
+    // Two boxes of 100 by 400 and one of 100 by 100 between them, at 400 units for a height of 1.
+    assert_true(fabs(kit.mesh.volume - 0.25 * 90000 / 160000) < 1e-12);
+    assert_true(fabs(made_kit_surface(&kit.mesh) - (2 * 90000 / 160000.0 + 0.25 * 2000 / 400)) < 1e-12);
+    made_kit_closed(&kit, build(text_of(font, "AH")));
+    assert_true(kit.mesh.upper.x == (420 - 40 + 300) / 400.0);
+    struct made_text text = text_of(font, "HAH\nA A");
+    text.bevel = 0.05;
+    made_kit_closed(&kit, build(text));
+    free(bytes);
+}
+
 // Where memory ends, the font is closed, and the fault goes on to the caller.
 struct small {
     struct arena *arena;
@@ -261,8 +283,10 @@ static int finish(void **state) {
 int main(int argc, char **argv) {
     few = argc > 1 && strcmp(argv[1], "few") == 0;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_layout),       cmocka_unit_test(test_faults),  cmocka_unit_test(test_all_fonts),
-        cmocka_unit_test(test_small_memory), cmocka_unit_test(test_damaged), cmocka_unit_test(test_speed),
+        cmocka_unit_test(test_layout),    cmocka_unit_test(test_faults),
+        cmocka_unit_test(test_all_fonts), cmocka_unit_test(test_small_memory),
+        cmocka_unit_test(test_overlaps),  cmocka_unit_test(test_damaged),
+        cmocka_unit_test(test_speed),
     };
     return cmocka_run_group_tests(tests, NULL, finish);
 }
