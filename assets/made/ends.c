@@ -1,6 +1,7 @@
 #include "assets/made/ends.h"
 
 #include "assets/made/region.h"
+#include "core/heap.h"
 
 #include <stdlib.h>
 
@@ -14,7 +15,7 @@ struct closing {
 static void take_path(struct closing *c, const struct path *path, bool is_ring, struct arena *arena) {
     c->node_count = is_ring ? path->count : path->count + 1;
     c->nodes = ARENA_ARRAY(arena, struct ir_pair, c->node_count);
-    c->edges = ARENA_ARRAY(arena, struct region_edge, 2 * (size_t)path->count + 1);
+    c->edges = ARENA_ARRAY(arena, struct region_edge, heap_times(2, path->count) + 1);
     for (uint32_t i = 0; i < path->count; i++) {
         const uint32_t next = i + 1 < c->node_count ? i + 1 : 0;
         c->nodes[i] = path->pieces[i].from;

@@ -1,6 +1,7 @@
 #include "assets/made/region.h"
 
 #include "assets/made/region_internal.h"
+#include "core/heap.h"
 
 static bool is_end(const struct sweep *sweep, uint32_t point, uint32_t edge) {
     return plane_side(sweep->points[sweep->edges[edge].low], sweep->points[sweep->edges[edge].high],
@@ -61,7 +62,7 @@ static void keep_sides(struct region *r, const struct sweep *sweep, const uint32
 static struct loops make_loops(const struct region *r, const struct sweep *sweep) {
     const uint32_t diagonals = sweep ? sweep->diagonals.count : 0;
     struct sweep_diagonal *edges =
-        ARENA_ARRAY(r->arena, struct sweep_diagonal, r->side_count + 2 * diagonals);
+        ARENA_ARRAY(r->arena, struct sweep_diagonal, r->side_count + heap_times(2, diagonals));
     uint32_t count = 0;
     for (uint32_t i = 0; i < r->side_count; i++)
         edges[count++] = (struct sweep_diagonal){r->sides[i].from, r->sides[i].to};

@@ -4,6 +4,7 @@
 #include "assets/made/fault.h"
 #include "assets/made/shell.h"
 #include "core/angle.h"
+#include "core/heap.h"
 
 enum {
     COLUMNS_LEAST = 8, // of a whole turn
@@ -65,7 +66,7 @@ static uint64_t count_pieces(const struct revolving *r, uint64_t for_quad, uint6
 // ---- vertices
 
 static void make_turns(struct revolving *r, struct arena *arena) {
-    r->turns = ARENA_ARRAY(arena, struct vec3_turn, 2 * (size_t)r->columns + 1);
+    r->turns = ARENA_ARRAY(arena, struct vec3_turn, heap_times(2, r->columns) + 1);
     for (uint32_t i = 0; i <= 2 * r->columns; i++)
         r->turns[i] = vec3_turn_of(r->in->angle * i / (2 * r->columns));
 }

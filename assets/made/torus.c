@@ -36,7 +36,8 @@ bool made_build_torus(const struct made_torus *torus, const struct made_to *to, 
     // Half of the tolerance around the tube, half around the axis; both are shares of radius and tube
     // together.
     const double share = torus->tolerance / 2;
-    const uint32_t count = revolve_columns(360, share * ((torus->radius + torus->tube) / torus->tube));
+    const double share_of_tube = share * ((torus->radius + torus->tube) / torus->tube);
+    const uint32_t count = revolve_columns(360, share_of_tube);
     struct path path = {.pieces = ARENA_ARRAY(to->arena, struct path_piece, count)};
     add_circle(torus, count, &path);
     return revolve_build(&(struct revolve){&path, true, 360, revolve_columns(360, share)}, to, out);
