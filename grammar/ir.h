@@ -240,6 +240,22 @@ struct ir_box {
     struct ir_reference material;
 };
 
+struct ir_cylinder {
+    struct ir_head head;
+    str name;
+    vec3 from, to; // middles of its ends
+    double radius;
+    struct ir_reference material;
+};
+
+struct ir_cone {
+    struct ir_head head;
+    str name;
+    vec3 from, to; // middles of its ends
+    double radius_from, radius_to;
+    struct ir_reference material;
+};
+
 struct ir_map_entry {
     struct ir_head head;
     str from; // name of a material in the mesh
@@ -429,6 +445,14 @@ struct ir_boxes {
     struct ir_box *items;
     uint32_t count, capacity;
 };
+struct ir_cylinders {
+    struct ir_cylinder *items;
+    uint32_t count, capacity;
+};
+struct ir_cones {
+    struct ir_cone *items;
+    uint32_t count, capacity;
+};
 struct ir_models {
     struct ir_model *items;
     uint32_t count, capacity;
@@ -451,13 +475,16 @@ struct ir_scene {
     struct ir_spheres spheres;
     struct ir_rectangles rectangles;
     struct ir_boxes boxes;
+    struct ir_cylinders cylinders;
+    struct ir_cones cones;
     struct ir_models models;
     struct ir_animation animation; // at its defaults once a frame was taken: ir_origin.motion
 };
 
-// Bodies are numbered spheres, rectangles, boxes, models, each in file order.
+// Bodies are numbered spheres, rectangles, boxes, cylinders, cones, models, each in file order.
 static inline uint32_t ir_body_count(const struct ir_scene *scene) {
-    return scene->spheres.count + scene->rectangles.count + scene->boxes.count + scene->models.count;
+    return scene->spheres.count + scene->rectangles.count + scene->boxes.count + scene->cylinders.count +
+           scene->cones.count + scene->models.count;
 }
 
 #endif

@@ -51,6 +51,8 @@
         struct ir_spheres: SCHEMA_LIST,                                                                      \
         struct ir_rectangles: SCHEMA_LIST,                                                                   \
         struct ir_boxes: SCHEMA_LIST,                                                                        \
+        struct ir_cylinders: SCHEMA_LIST,                                                                    \
+        struct ir_cones: SCHEMA_LIST,                                                                        \
         struct ir_models: SCHEMA_LIST,                                                                       \
         struct ir_map_entries: SCHEMA_LIST,                                                                  \
         struct ir_tracks: SCHEMA_LIST,                                                                       \

@@ -84,6 +84,29 @@ static void add_box(struct building *b, uint32_t i) {
     scene_body_place(body, transform_of(ir->size, ir->rotation, ir->center), 0);
 }
 
+static void add_frustum(struct building *b, struct scene_body *body, vec3 from, vec3 to, double radius_from,
+                        double radius_to, const struct ir_reference *material) {
+    const vec3 axis = vec3_sub(to, from);
+    body->shape = SCENE_CONE;
+    body->closed = true;
+    body->radius_to = radius_to;
+    body->height = vec3_length(axis);
+    take_material(b, body, material);
+    scene_body_place(body, (affine3){scene_cone_frame(axis), from}, radius_from);
+}
+
+static void add_cylinder(struct building *b, uint32_t i) {
+    const struct ir_cylinder *ir = &b->scene->ir->cylinders.items[i];
+    struct scene_body *body = add(b, &SCHEMA_CYLINDER, i, &ir->head, ir->name);
+    add_frustum(b, body, ir->from, ir->to, ir->radius, ir->radius, &ir->material);
+}
+
+static void add_cone(struct building *b, uint32_t i) {
+    const struct ir_cone *ir = &b->scene->ir->cones.items[i];
+    struct scene_body *body = add(b, &SCHEMA_CONE, i, &ir->head, ir->name);
+    add_frustum(b, body, ir->from, ir->to, ir->radius_from, ir->radius_to, &ir->material);
+}
+
 static void add_model(struct building *b, uint32_t i) {
     const struct ir_model *ir = &b->scene->ir->models.items[i];
     const struct assets *assets = b->scene->assets;
@@ -102,10 +125,8 @@ static const struct kind {
     const struct schema_element *element;
     void (*add)(struct building *b, uint32_t i);
 } KINDS[] = {
-    {&SCHEMA_SPHERE, add_sphere},
-    {&SCHEMA_RECTANGLE, add_rectangle},
-    {&SCHEMA_BOX, add_box},
-    {&SCHEMA_MODEL, add_model},
+    {&SCHEMA_SPHERE, add_sphere},     {&SCHEMA_RECTANGLE, add_rectangle}, {&SCHEMA_BOX, add_box},
+    {&SCHEMA_CYLINDER, add_cylinder}, {&SCHEMA_CONE, add_cone},           {&SCHEMA_MODEL, add_model},
 };
 
 enum {

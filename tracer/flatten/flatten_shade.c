@@ -51,7 +51,8 @@ enum flatten_fault flatten_body_records(struct flattening *f) {
                                   .instance = f->out->instance_of[i]};
         if (f->medium)
             record.medium = f->medium[i];
-        if (has_checker(f->scene, body)) {
+        const bool is_cone = shape_traits(body->shape).items == SHAPE_CONE; // its frame, for images
+        if (has_checker(f->scene, body) || is_cone) {
             if (shape_traits(body->shape).is_flat)
                 put_edge_lengths(body, &record);
             else
