@@ -421,7 +421,7 @@ const struct schema_element SCHEMA_RECTANGLE = {ELEMENT(
 
 static const struct schema_row box_rows[] = {
     BODY_NAME(ir_box, "crate"),
-    {.name = "center", .element = "Center", FIELD(ir_box, center), .example = "0 0.5 0",
+    {.name = "center", .element = "Center", FIELD(ir_box, center), .example = "0 0.6 0",
      .also = "pos position location origin translation middle",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
      .doc = "Middle of the box."},
@@ -487,7 +487,7 @@ const struct schema_element SCHEMA_OUTLINE_POINT = {
     ELEMENT("point", "Point", ir_outline_point, point_rows, "A point of an outline.")};
 
 static const struct schema_row lathe_rows[] = {
-    {.name = "point", .element = "Point", .plural = "profile", FIELD(ir_lathe, profile),
+    {.name = "point", .element = "Point", .plural = "profile", FIELD(ir_lathe, profile), .example = "0 0, 1 0.2, 0 1",
      .also = "points outline contour curve_points", .many = SCHEMA_SEQUENCE, .child = &SCHEMA_OUTLINE_POINT, .required = true,
      .doc = "The outline that is turned around the y axis: x is the distance from the axis, y the height."},
     {.name = "curve", FIELD(ir_lathe, curve), .example = "smooth", .words = curve_words, .word_docs = curve_docs,
@@ -511,23 +511,23 @@ const struct schema_element SCHEMA_TORUS = {
     ELEMENT("torus", "Torus", ir_torus, torus_rows, "A ring around the y axis.")};
 
 static const struct schema_row hole_rows[] = {
-    {.name = "point", .element = "Point", .plural = "outline", FIELD(ir_hole, points), .short_form = true,
+    {.name = "point", .element = "Point", .plural = "outline", FIELD(ir_hole, points), .example = "0.4 0.1, 0.8 0.1, 0.8 0.5", .short_form = true,
      .also = "points contour", .many = SCHEMA_SEQUENCE, .child = &SCHEMA_OUTLINE_POINT, .required = true, .doc = "The hole's points, in either sense."},
 };
 const struct schema_element SCHEMA_HOLE = {ELEMENT("hole", "Hole", ir_hole, hole_rows, "A hole in an outline.")};
 
 static const struct schema_row extrude_rows[] = {
-    {.name = "point", .element = "Point", .plural = "outline", FIELD(ir_extrude, outline),
+    {.name = "point", .element = "Point", .plural = "outline", FIELD(ir_extrude, outline), .example = "0 0, 1 0, 1 1",
      .also = "points profile contour shape polygon", .many = SCHEMA_SEQUENCE, .child = &SCHEMA_OUTLINE_POINT, .required = true,
      .doc = "The outline's points, in either sense; the last is joined to the first."},
-    {.name = "hole", .element = "Hole", .plural = "holes", FIELD(ir_extrude, holes), .also = "cutouts inner",
+    {.name = "hole", .element = "Hole", .plural = "holes", FIELD(ir_extrude, holes), .example_alone = true, .also = "cutouts inner",
      .many = SCHEMA_SEQUENCE, .child = &SCHEMA_HOLE,
      .doc = "Further outlines: what lies in an even number of them is left out."},
-    {.name = "curve", FIELD(ir_extrude, curve), .example = "smooth", .words = curve_words, .word_docs = curve_docs,
+    {.name = "curve", FIELD(ir_extrude, curve), .example = "smooth", .example_alone = true, .words = curve_words, .word_docs = curve_docs,
      .also = "interpolation spline type", .standard = "linear", .doc = "What lies between the points."},
     {.name = "height", FIELD(ir_extrude, height), .example = "0.5", .unit = SCHEMA_UNIT_SCENE, .also = "depth length thickness",
      .range = SCHEMA_RANGE_LENGTH, .required = true, .doc = "How far the outline is drawn along z, from 0 on."},
-    {.name = "bevel", FIELD(ir_extrude, bevel), .example = "0.05", .unit = SCHEMA_UNIT_SCENE, .also = "chamfer",
+    {.name = "bevel", FIELD(ir_extrude, bevel), .example = "0.02", .unit = SCHEMA_UNIT_SCENE, .also = "chamfer",
      .range = SCHEMA_RANGE_SIZE, .standard = "0", .doc = "How far the edges are cut off, at 45 degrees."},
 };
 const struct schema_element SCHEMA_EXTRUDE = {
@@ -550,26 +550,26 @@ static const struct schema_row corner_rows[] = {
 };
 const struct schema_element SCHEMA_CORNER = {ELEMENT("corner", "Corner", ir_corner, corner_rows, "A corner of a face.")};
 static const struct schema_row face_rows[] = {
-    {.name = "corner", .element = "Corner", .plural = "corners", FIELD(ir_face, corners), .short_form = true,
+    {.name = "corner", .element = "Corner", .plural = "corners", FIELD(ir_face, corners), .example = "0, 1, 2", .short_form = true,
      .also = "indices vertices", .many = SCHEMA_SEQUENCE, .child = &SCHEMA_CORNER, .required = true,
      .doc = "The face's vertices by number, at least three, counter-clockwise as seen from outside."},
 };
 const struct schema_element SCHEMA_FACE = {ELEMENT("face", "Face", ir_face, face_rows, "A face of a mesh.")};
 static const struct schema_row faces_rows[] = {
-    {.name = "vertex", .element = "Vertex", .plural = "vertices", FIELD(ir_faces, vertices), .also = "points positions verts",
+    {.name = "vertex", .element = "Vertex", .plural = "vertices", FIELD(ir_faces, vertices), .example = "0 0 0, 1 0 0, 0 1 0", .also = "points positions verts",
      .many = SCHEMA_SEQUENCE, .child = &SCHEMA_VERTEX, .required = true, .doc = "The vertices, which faces name by their number."},
-    {.name = "uv", .element = "Uv", .plural = "uv", FIELD(ir_faces, uv), .also = "uvs texcoords texture_coordinates",
+    {.name = "uv", .element = "Uv", .plural = "uv", FIELD(ir_faces, uv), .example = "0 0, 1 0, 0 1", .also = "uvs texcoords texture_coordinates",
      .many = SCHEMA_SEQUENCE, .child = &SCHEMA_UV, .doc = "Places in an image, one of each vertex."},
-    {.name = "face", .element = "Face", .plural = "faces", FIELD(ir_faces, faces), .also = "triangles polygons indices",
+    {.name = "face", .element = "Face", .plural = "faces", FIELD(ir_faces, faces), .example = "0 1 2", .also = "triangles polygons indices",
      .many = SCHEMA_SEQUENCE, .child = &SCHEMA_FACE, .required = true, .doc = "The faces, of three vertices or more."},
 };
 const struct schema_element SCHEMA_FACES = {
     ELEMENT("faces", "Faces", ir_faces, faces_rows, "Vertices, and the faces between them.")};
 
 static const struct schema_row text_rows[] = {
-    {.name = "string", FIELD(ir_text, string), .example = "Sales", .also = "text label content value", .required = true,
+    {.name = "string", FIELD(ir_text, string), .example = "AHA", .also = "text label content value", .required = true,
      .doc = "What is written; lines end where it has a line end."},
-    {.name = "font", FIELD(ir_text, font), .example = "DejaVuSans.ttf", .text = SCHEMA_TEXT_PATH, .file = SCHEMA_FILE_FONT,
+    {.name = "font", FIELD(ir_text, font), .example = "letters.ttf", .text = SCHEMA_TEXT_PATH, .file = SCHEMA_FILE_FONT,
      .also = "typeface font_file", .required = true, .doc = "Path of a TrueType or OpenType file."},
     {.name = "height", FIELD(ir_text, height), .example = "0.4", .unit = SCHEMA_UNIT_SCENE, .also = "size font_size",
      .range = SCHEMA_RANGE_LENGTH, .standard = "1", .doc = "Height of a capital letter."},
@@ -678,7 +678,7 @@ static const struct schema_row scene_rows[] = {
     {.name = "material", .element = "Material", .plural = "materials", FIELD(ir_scene, materials),
      .also = "shader shaders bsdf bsdfs",
      .many = SCHEMA_NAMED_MAP, .child = &SCHEMA_MATERIAL, .doc = "Materials by name."},
-    {.name = "mesh", .element = "Mesh", .plural = "meshes", FIELD(ir_scene, meshes),
+    {.name = "mesh", .element = "Mesh", .plural = "meshes", FIELD(ir_scene, meshes), .example_alone = true,
      .also = "geometry geometries",
      .many = SCHEMA_NAMED_MAP, .child = &SCHEMA_MESH, .doc = "Meshes that models show, by name."},
     {.name = "sphere", .element = "Sphere", .plural = "spheres", FIELD(ir_scene, spheres),

@@ -127,9 +127,10 @@ struct schema_row {
     enum schema_file file; // SCHEMA_TEXT_PATH
     enum schema_unit unit;
     enum schema_range range;
-    const char *standard;     // the default, as scene text ("0 1 0", "clip", "true"); NULL: none
-    const char *example;      // a value worth showing, as scene text; NULL if examples leave the row out
-    bool example_alone;       // the example shows the row alone: the element's example leaves it out
+    const char *standard; // the default, as scene text ("0 1 0", "clip", "true"); NULL: none
+    const char *example;  // a value worth showing, as scene text; NULL if examples leave the row out. Of a
+                          // SCHEMA_LIST: the short rows of its items, ", " between them
+    bool example_alone;   // the example shows the row alone: the element's example leaves it out
     const char *example_next; // SCHEMA_FIXED: of the values after the first
     const char *const *words; // SCHEMA_WORD: in the order of the enum, NULL at the end
     const char *const *word_docs;

@@ -26,8 +26,8 @@ struct building {
     uint32_t *material; // the next place for a body's one material
 };
 
-// A box whose edges are a whole number of cells has its faces where cells meet. A checker counts by edges that
-// are shorter by this share, so that a face shows the cells behind it.
+// A box whose edges are a whole number of cells has its faces where cells meet. A checker counts by edges
+// that are shorter by this share, so that a face shows the cells behind it.
 #define CELLS_WITHIN 0x1p-16
 
 static struct scene_body *add(struct building *b, const struct schema_element *element, uint32_t index,

@@ -17,6 +17,8 @@ static const struct generate_paths *paths_of(const struct generator *g, const st
         return &g->options->images;
     case SCHEMA_FILE_MESH:
         return &g->options->meshes;
+    case SCHEMA_FILE_FONT:
+        return &g->options->fonts;
     default:
         return &none;
     }

@@ -249,7 +249,7 @@ static void test_unknown_things(void **state) {
     assert_unknown("eye",
                    "several attributes are like 'eye'; say which: 'scene.camera' or 'camera.position'\n");
     assert_unknown("rotation", "several elements have 'rotation'; say which: 'camera.rotation', "
-                               "'background.rotation', 'texture.rotation' or 'model.rotation'\n");
+                               "'background.rotation', 'texture.rotation', 'box.rotation' or 'model.rotation'\n");
 }
 
 int main(void) {

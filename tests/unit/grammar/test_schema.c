@@ -35,6 +35,18 @@ static const struct {
     {&SCHEMA_CHECKER, "ir_checker"},
     {&SCHEMA_TEXTURE, "ir_texture"},
     {&SCHEMA_HIGHLIGHT, "ir_highlight"},
+    {&SCHEMA_MESH, "ir_mesh"},
+    {&SCHEMA_LATHE, "ir_lathe"},
+    {&SCHEMA_OUTLINE_POINT, "ir_outline_point"},
+    {&SCHEMA_TORUS, "ir_torus"},
+    {&SCHEMA_EXTRUDE, "ir_extrude"},
+    {&SCHEMA_HOLE, "ir_hole"},
+    {&SCHEMA_FACES, "ir_faces"},
+    {&SCHEMA_VERTEX, "ir_vertex"},
+    {&SCHEMA_UV, "ir_coordinate"},
+    {&SCHEMA_FACE, "ir_face"},
+    {&SCHEMA_CORNER, "ir_corner"},
+    {&SCHEMA_MESH_TEXT, "ir_text"},
     {&SCHEMA_SPHERE, "ir_sphere"},
     {&SCHEMA_RECTANGLE, "ir_rectangle"},
     {&SCHEMA_BOX, "ir_box"},
@@ -51,7 +63,8 @@ static const struct {
 
 static bool has_numbers(const struct schema_row *row) {
     return row->kind == SCHEMA_INTEGER || row->kind == SCHEMA_NUMBER || row->kind == SCHEMA_VECTOR ||
-           row->kind == SCHEMA_PAIR || row->kind == SCHEMA_POINT || row->kind == SCHEMA_COLOR || row->kind == SCHEMA_WEIGHTS;
+           row->kind == SCHEMA_PAIR || row->kind == SCHEMA_POINT || row->kind == SCHEMA_COLOR ||
+           row->kind == SCHEMA_WEIGHTS;
 }
 
 // ---- fields
@@ -364,7 +377,8 @@ static void test_what_other_tools_have(void **state) {
 
 static void check_row(const struct schema_element *schema, const struct schema_row *row) {
     assert_int_equal(has_numbers(row), row->range != SCHEMA_RANGE_NONE);
-    assert_int_equal(row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_PATH,
+    assert_int_equal((row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_PATH) ||
+                         (row->kind == SCHEMA_REFERENCE && row->child == &SCHEMA_MESH),
                      row->file != SCHEMA_FILE_NONE);
     assert_int_equal(row->kind == SCHEMA_LIST, row->many == SCHEMA_SEQUENCE || row->many == SCHEMA_NAMED_MAP);
     assert_int_equal(row->kind == SCHEMA_ELEMENT || row->kind == SCHEMA_REFERENCE || row->kind == SCHEMA_LIST,
@@ -513,6 +527,9 @@ static void check_scene_text(const struct schema_row *row, const char *text) {
     case SCHEMA_TEXT:
         assert_true((row->text != SCHEMA_TEXT_NAME && row->text != SCHEMA_TEXT_BODY_NAME) ||
                     str_is_name(str_from(text)));
+        break;
+    case SCHEMA_LIST: // docs/reference checks the values
+        assert_true(schema_short_row(row->child) >= 0);
         break;
     default:
         assert_int_equal(row->kind, SCHEMA_REFERENCE);
