@@ -21,7 +21,7 @@ struct table {
     uint64_t key[2]; // of the scene as it was made
     uint32_t changes;
     // Rows that were changed, by element of the table.
-    uint64_t changed[32];
+    uint64_t changed[64];
 };
 
 static void key_of(const struct table *t, uint64_t key[2]) {
