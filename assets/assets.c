@@ -135,10 +135,6 @@ static void load_mesh(struct loader *loader, struct loaded_mesh *loaded, const s
     loaded->mesh = loaded->own = entry->is_whole ? &entry->mesh : NULL;
 }
 
-bool assets_has_mesh_path(const struct ir_model *model) {
-    return ir_walk_path(&SCHEMA_MODEL.rows[schema_find_row(&SCHEMA_MODEL, STR("mesh"))], model) != NULL;
-}
-
 // The file that a model names, read when the first model names it.
 static struct loaded_mesh *mesh_of_model(struct loader *loader, const struct ir_model *model, span at) {
     const struct assets_input *input = loader->input;
@@ -273,7 +269,7 @@ static void load_model(struct loader *loader, struct assets *out, uint32_t index
     if (is_poisoned(&model->head, &SCHEMA_MODEL, "mesh"))
         return;
     struct loaded_mesh *loaded = model->mesh.index != IR_NO_INDEX ? made_mesh_of_model(loader, model)
-                                 : assets_has_mesh_path(model)    ? mesh_of_model(loader, model, at)
+                                 : loader_names_file(model)       ? mesh_of_model(loader, model, at)
                                                                   : NULL;
     if (!loaded || !loaded->mesh || !fits_scene(loader, out, loaded, at))
         return;

@@ -17,7 +17,6 @@
 #include "picture/read/picture.h"
 
 struct ir_material;
-struct ir_model;
 struct ir_reference;
 struct ir_scene;
 
@@ -89,8 +88,6 @@ void assets_settle(struct assets *assets);
 void assets_finish(struct assets *assets);
 // The index in assets.materials of a body's reference.
 uint32_t assets_material(const struct ir_scene *scene, const struct ir_reference *ref);
-// Whether the model names a file, not a mesh that the scene describes.
-bool assets_has_mesh_path(const struct ir_model *model);
 // Whether `path` has the ending of a mesh file that is read (grammar/mesh_format.h).
 bool assets_is_mesh_path(str path);
 

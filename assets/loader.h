@@ -132,7 +132,9 @@ void loader_load_textures(struct loader *loader, struct assets *out);
 void loader_load_coordinates(struct loader *loader, const struct assets_model *model,
                              struct loaded_mesh *loaded);
 
-// made_assets.c: the mesh scene.meshes[index], made when it is first asked for; one that cannot be made is
+// made_assets.c: whether the model names a file, not a mesh that the scene describes.
+bool loader_names_file(const struct ir_model *model);
+// The mesh scene.meshes[index], made when it is first asked for; one that cannot be made is
 // reported once.
 struct loaded_mesh *loader_made_mesh(struct loader *loader, uint32_t index);
 

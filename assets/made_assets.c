@@ -299,6 +299,10 @@ static void load(struct making *m) {
     m->loaded->mesh = m->loaded->own = entry->is_whole ? &entry->mesh : NULL;
 }
 
+bool loader_names_file(const struct ir_model *model) {
+    return ir_walk_path(&SCHEMA_MODEL.rows[schema_find_row(&SCHEMA_MODEL, STR("mesh"))], model) != NULL;
+}
+
 struct loaded_mesh *loader_made_mesh(struct loader *loader, uint32_t index) {
     const struct assets_input *input = loader->input;
     const struct ir_mesh *ir = &input->scene->meshes.items[index];

@@ -152,7 +152,7 @@ void meshes_ahead_read(const struct loader *loader, struct meshes_ahead **out) {
     str_map_init(&ahead->names, input->arena);
     str_map_init(&ahead->paths, input->arena);
     for (uint32_t i = 0; i < scene->models.count; i++)
-        if (assets_has_mesh_path(&scene->models.items[i]))
+        if (loader_names_file(&scene->models.items[i]))
             consider(ahead, loader, &scene->models.items[i]);
     // The log gets each file when it is used.
     const uint32_t logged = input->files->log.count;

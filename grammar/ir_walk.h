@@ -48,7 +48,7 @@ int ir_walk_short(const struct ir_scene *scene, const struct schema_element *sch
 uint32_t ir_walk_components(const struct schema_row *row, const void *field, double out[4]);
 
 // The path of a file that this row of an element holds, written or not; NULL: it holds none. A reference has
-// one if the row may name a file and the text is no name, but has a point or a slash.
+// one if the row may name a file and the text is not a name, but has a point or a slash.
 const str *ir_walk_path(const struct schema_row *row, const void *element);
 
 // Calls `visit`, which may change it, for each file path in the scene.

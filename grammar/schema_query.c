@@ -48,6 +48,48 @@ static const struct schema_range_info ranges[SCHEMA_RANGE_COUNT] = {
                            "from " RANGE_TEXT(RANGE_RATE_LEAST) " to " RANGE_TEXT(RANGE_RATE_MOST)},
 };
 
+// clang-format off
+const struct schema_element *const schema_elements[] = {
+    &SCHEMA_SCENE,
+    &SCHEMA_INCLUDE,
+    &SCHEMA_IMAGE,
+    &SCHEMA_TRACE,
+    &SCHEMA_CAMERA,
+    &SCHEMA_BACKGROUND,
+    &SCHEMA_AMBIENT,
+    &SCHEMA_LIGHT,
+    &SCHEMA_PANEL,
+    &SCHEMA_MATERIAL,
+    &SCHEMA_PAINT,
+    &SCHEMA_CHECKER,
+    &SCHEMA_TEXTURE,
+    &SCHEMA_HIGHLIGHT,
+    &SCHEMA_MESH,
+    &SCHEMA_LATHE,
+    &SCHEMA_OUTLINE_POINT,
+    &SCHEMA_TORUS,
+    &SCHEMA_EXTRUDE,
+    &SCHEMA_HOLE,
+    &SCHEMA_FACES,
+    &SCHEMA_VERTEX,
+    &SCHEMA_UV,
+    &SCHEMA_FACE,
+    &SCHEMA_CORNER,
+    &SCHEMA_MESH_TEXT,
+    &SCHEMA_SPHERE,
+    &SCHEMA_RECTANGLE,
+    &SCHEMA_BOX,
+    &SCHEMA_CYLINDER,
+    &SCHEMA_CONE,
+    &SCHEMA_MODEL,
+    &SCHEMA_MAP_ENTRY,
+    &SCHEMA_ANIMATION,
+    &SCHEMA_TRACK,
+    &SCHEMA_KEYFRAME,
+    NULL,
+};
+// clang-format on
+
 const struct schema_range_info *schema_range_info(enum schema_range range) {
     return &ranges[range];
 }

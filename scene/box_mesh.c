@@ -1,5 +1,4 @@
 // The mesh that boxes show: a cube of edge 1 around the origin, which the program has and no file.
-#include "assets/file/polygons.h"
 #include "assets/mesh.h"
 #include "scene/scene_internal.h"
 

@@ -26,7 +26,8 @@ static void text_words(const struct schema_row *row, struct strbuf *out) {
         [SCHEMA_TEXT_TARGET] = "way to a value",
         [SCHEMA_TEXT_VALUES] = "one to four numbers or expressions",
     };
-    static const char *const files[] = {"", " of a scene file", " of an image file", " of a mesh file", " of a font"};
+    static const char *const files[] = {"", " of a scene file", " of an image file", " of a mesh file",
+                                        " of a font"};
     strbuf_cstr(out, texts[row->text]);
     strbuf_cstr(out, files[row->file]);
     if (row->file == SCHEMA_FILE_MESH) {

@@ -147,7 +147,7 @@ static bool looks_smooth(const struct mesh *mesh, struct arena *arena) {
 // ---- the scene
 
 static struct ir_reference add_material(struct ir_scene *scene, struct arena *arena, const char *name,
-                                           double specular, struct ir_color color) {
+                                        double specular, struct ir_color color) {
     struct ir_material *material = ARENA_PUSH(arena, &scene->materials);
     schema_init(&SCHEMA_MATERIAL, material);
     material->name = str_from(name);
