@@ -39,8 +39,6 @@ static const char *const wrap_words[] = {"repeat", "clamp", "mirror", NULL};
 static const char *const wrap_docs[] = {"The image begins anew.", "The image's edge goes on.",
                                         "The image begins anew, every other one mirrored.", NULL};
 
-
-
 // A row reads as a unit, its columns in lines of text.
 // clang-format off
 static const struct schema_row include_rows[] = {
