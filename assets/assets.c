@@ -13,6 +13,7 @@
 #include "diag/codes/limit.h"
 #include "diag/codes/rule.h"
 #include "grammar/ir.h"
+#include "grammar/ir_walk.h"
 #include "grammar/mesh_format.h"
 #include "grammar/schema.h"
 #include "picture/read/picture_read.h"
@@ -134,30 +135,30 @@ static void load_mesh(struct loader *loader, struct loaded_mesh *loaded, const s
     loaded->mesh = loaded->own = entry->is_whole ? &entry->mesh : NULL;
 }
 
-// The mesh that a model names, read when the first model names it.
+// The file that a model names, read when the first model names it.
 static struct loaded_mesh *mesh_of_model(struct loader *loader, const struct ir_model *model, span at) {
     const struct assets_input *input = loader->input;
     struct asset_file file = {.input = input, .what = "mesh", .limit = LIMIT_MESH_BYTES, .named_at = at};
     struct file_read identity;
     // Thousands of models may name one mesh: the first of them has already checked that its file exists.
     for (struct loaded_mesh *known = loader->meshes; known; known = known->next)
-        if (known->file.named_at.source == at.source && str_equal(known->name, model->mesh) &&
+        if (known->file.named_at.source == at.source && str_equal(known->name, model->mesh.name) &&
             str_equal(known->part, model->part)) {
             asset_note_again(&known->file, at, known->name, known->canonical, known->size_bytes);
             return known;
         }
-    if (!asset_find(&file, asset_base(input, at), model->mesh, &identity, NULL))
+    if (!asset_find(&file, asset_base(input, at), model->mesh.name, &identity, NULL))
         return NULL;
     for (struct loaded_mesh *known = loader->meshes; known; known = known->next)
         if (str_equal(known->canonical, identity.path) && str_equal(known->part, model->part))
             return known;
-    if (!assets_is_mesh_path(model->mesh)) {
+    if (!assets_is_mesh_path(model->mesh.name)) {
         report_mesh_kind(&file);
         return NULL;
     }
     struct loaded_mesh *loaded = ARENA_NEW(input->arena, struct loaded_mesh);
     loaded->file = file;
-    loaded->name = model->mesh;
+    loaded->name = model->mesh.name;
     loaded->part = model->part;
     loaded->file.part = model->part;
     loaded->file.part_at = ir_place_value(input->origin, &model->head, &SCHEMA_MODEL, "part");
@@ -169,6 +170,18 @@ static struct loaded_mesh *mesh_of_model(struct loader *loader, const struct ir_
         return loaded;
     if (loader_open_document(loader, &loaded->file, &identity) && loaded->file.errors == 0)
         load_mesh(loader, loaded, &identity);
+    return loaded;
+}
+
+static struct loaded_mesh *made_mesh_of_model(struct loader *loader, const struct ir_model *model) {
+    struct loaded_mesh *loaded = loader_made_mesh(loader, model->mesh.index);
+    if (model->part.len && !loaded->part_told) {
+        diag_add(loader->input->sink, DIAG_UNKNOWN_PART,
+                 ir_place_value(loader->input->origin, &model->head, &SCHEMA_MODEL, "part"),
+                 "'part' has no meaning here: a mesh that the scene describes is one body");
+        diag_help(loader->input->sink, "leave 'part' out");
+        loaded->part_told = true;
+    }
     return loaded;
 }
 
@@ -232,10 +245,14 @@ static void check_refraction(struct loader *loader, const struct ir_model *model
     span place = model->material.name.len || model->material.index != IR_NO_INDEX
                      ? ir_place_value(loader->input->origin, &model->head, &SCHEMA_MODEL, "material")
                      : at;
-    span line = asset_line(&loaded->file, mesh->open_line);
     diag_add(sink, DIAG_OPEN_DIELECTRIC, place,
              "the mesh '%.*s' is open and its material refracts: it will look like a thin pane",
-             STR_ARG(model->mesh));
+             STR_ARG(loaded->name));
+    if (loaded->made) {
+        diag_help(sink, "close the mesh, or set the material's refraction to 0");
+        return;
+    }
+    span line = asset_line(&loaded->file, mesh->open_line);
     const char *belong = mesh->open_edges == 1 ? " belongs" : "s belong";
     if (mesh->is_binary)
         diag_note(sink, line, "%u edge%s to only one face, the first to face %u", mesh->open_edges, belong,
@@ -249,16 +266,18 @@ static void load_model(struct loader *loader, struct assets *out, uint32_t index
     const struct ir_model *model = &loader->input->scene->models.items[index];
     struct assets_model *result = &out->models[index];
     span at = ir_place_value(loader->input->origin, &model->head, &SCHEMA_MODEL, "mesh");
-    if (model->mesh.len == 0 || is_poisoned(&model->head, &SCHEMA_MODEL, "mesh"))
+    if (is_poisoned(&model->head, &SCHEMA_MODEL, "mesh"))
         return;
-    struct loaded_mesh *loaded = mesh_of_model(loader, model, at);
+    struct loaded_mesh *loaded = model->mesh.index != IR_NO_INDEX ? made_mesh_of_model(loader, model)
+                                 : loader_names_file(model)       ? mesh_of_model(loader, model, at)
+                                                                  : NULL;
     if (!loaded || !loaded->mesh || !fits_scene(loader, out, loaded, at))
         return;
     result->group_material = loader_group_materials(loader, model, loaded);
     result->mesh = loaded->mesh;
     check_refraction(loader, model, result, loaded, at);
     loader_load_coordinates(loader, result, loaded);
-    if (model->smooth && !loaded->normals_told)
+    if (model->smooth && !loaded->normals_told && !loaded->made)
         mesh_losses_report_normals(&loaded->file, loaded->mesh);
     loaded->normals_told = loaded->normals_told || model->smooth;
 }
@@ -354,6 +373,8 @@ void assets_load(struct asset_store *store, const struct assets_input *given, en
         load_model(&loader, out, i);
     meshes_ahead_finish(out->meshes_ahead);
     out->meshes_ahead = NULL;
+    for (uint32_t i = 0; i < scene->meshes.count; i++)
+        loader_made_mesh(&loader, i); // what no model shows is checked too
     report_unfit(&loader, out);
     loader_load_textures(&loader, out);
     loader_close_documents(&loader);

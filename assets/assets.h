@@ -17,7 +17,7 @@
 #include "picture/read/picture.h"
 
 struct ir_material;
-struct ir_material_ref;
+struct ir_reference;
 struct ir_scene;
 
 struct asset_ahead;
@@ -87,7 +87,7 @@ void assets_settle(struct assets *assets);
 // Accepts zeroed, half-loaded and finished assets.
 void assets_finish(struct assets *assets);
 // The index in assets.materials of a body's reference.
-uint32_t assets_material(const struct ir_scene *scene, const struct ir_material_ref *ref);
+uint32_t assets_material(const struct ir_scene *scene, const struct ir_reference *ref);
 // Whether `path` has the ending of a mesh file that is read (grammar/mesh_format.h).
 bool assets_is_mesh_path(str path);
 

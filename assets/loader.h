@@ -7,17 +7,20 @@
 #include "assets/store.h"
 #include "core/str_map.h"
 
+struct ir_mesh;
 struct ir_model;
 struct meshes_ahead;
 
-// A mesh file that models of this scene name.
+// A mesh that models of this scene show: that of a file, or one that the scene describes.
 struct loaded_mesh {
+    const struct ir_mesh *made; // what the scene describes; NULL: the mesh of a file
     struct asset_file file;
     str name, part;      // as the first model that names it writes it
     uint64_t size_bytes; // of the file
     str canonical;
     const struct mesh *mesh; // NULL: it could not be loaded
     struct str_map groups;   // of the mesh: 1 + index; made when first needed
+    bool part_told;          // reported that a model asks for a part of it
     bool normals_told;       // reported that some normals have no direction
     bool coordinates_read;   // coordinates were read, or found to be unreadable
     struct mesh *own;        // the same mesh, to be completed
@@ -70,6 +73,7 @@ struct loader {
     struct meshes_ahead *ahead; // meshes that were read already; NULL: none
     enum assets_pixels pixels;
     struct loaded_mesh *meshes;
+    struct loaded_mesh **made; // of the scene's meshes, by index; NULL: none yet
     struct loaded_image *images;
     struct {
         struct ir_material *items;
@@ -127,6 +131,12 @@ void loader_settle_image(struct loader *loader, uint32_t material);
 void loader_load_textures(struct loader *loader, struct assets *out);
 void loader_load_coordinates(struct loader *loader, const struct assets_model *model,
                              struct loaded_mesh *loaded);
+
+// made_assets.c: whether the model names a file, not a mesh that the scene describes.
+bool loader_names_file(const struct ir_model *model);
+// The mesh scene.meshes[index], made when it is first asked for; one that cannot be made is
+// reported once.
+struct loaded_mesh *loader_made_mesh(struct loader *loader, uint32_t index);
 
 // gltf_assets.c: the document of a mesh that is a glTF file, opened when the first model names it; its losses
 // are reported at the end. The material of a group of its mesh; false: it has none.

@@ -16,11 +16,11 @@ enum {
     SEARCHES_MAX = 50, // up to this many errors list the names that a mesh has
 };
 
-static bool is_written(const struct ir_material_ref *ref) {
+static bool is_written(const struct ir_reference *ref) {
     return ref->name.len > 0 || ref->index != IR_NO_INDEX;
 }
 
-uint32_t assets_material(const struct ir_scene *scene, const struct ir_material_ref *ref) {
+uint32_t assets_material(const struct ir_scene *scene, const struct ir_reference *ref) {
     return ref->index == IR_NO_INDEX ? scene->materials.count : ref->index;
 }
 

@@ -34,6 +34,7 @@ struct mesh {
     uint32_t group_count;
     struct mesh_library *libraries;
     uint32_t library_count;
+    bool is_made;        // the scene or the program describes it: no file has it
     bool is_binary;      // the file has no lines: a face's line is its number, from 1
     bool closed;         // bit-equal positions merged, every directed edge occurs as often as its opposite
     bool turned;         // a closed mesh of negative volume: `triangles` were turned outward

@@ -65,6 +65,11 @@ static void assign(struct assigning *r) {
                r->faces->coordinates.count * sizeof *mesh->coordinates);
 }
 
+void mesh_assign_coordinates(const struct textured_faces *faces, struct arena *scratch, struct mesh *mesh) {
+    struct assigning assigning = {faces, scratch, mesh};
+    assign(&assigning);
+}
+
 void mesh_read_coordinates(struct asset_file *file, struct arena *scratch, struct mesh *mesh) {
     const struct mesh_reader *reader = mesh_reader_of(file->path);
     const uint32_t before = file->errors;

@@ -13,5 +13,7 @@
 
 // Reads file->text. Both arenas must be guarded.
 void mesh_read_coordinates(struct asset_file *file, struct arena *scratch, struct mesh *mesh);
+// The same from faces that are at hand: those that the mesh was built of.
+void mesh_assign_coordinates(const struct textured_faces *faces, struct arena *scratch, struct mesh *mesh);
 
 #endif

@@ -56,9 +56,10 @@ static void consider(struct meshes_ahead *ahead, const struct loader *loader, co
     const span at = ir_place_value(input->origin, &model->head, &SCHEMA_MODEL, "mesh");
     struct file_read identity;
     str path;
-    const enum mesh_format_id format = mesh_format_of_path(model->mesh);
-    if (format == MESH_FORMAT_COUNT || format == MESH_FORMAT_GLTF || !is_new_name(ahead, model->mesh, at) ||
-        files_resolve(input->files, asset_base(input, at), model->mesh, &path) != FILE_OK ||
+    const enum mesh_format_id format = mesh_format_of_path(model->mesh.name);
+    if (format == MESH_FORMAT_COUNT || format == MESH_FORMAT_GLTF ||
+        !is_new_name(ahead, model->mesh.name, at) ||
+        files_resolve(input->files, asset_base(input, at), model->mesh.name, &path) != FILE_OK ||
         files_identify(input->files, path, &identity) != FILE_OK || identity.size_bytes > GROUP_BYTES ||
         identity.size_bytes > input->limits->value[LIMIT_MESH_BYTES] ||
         str_map_find(&ahead->paths, identity.path) || store_find(loader->hold, STORE_MESH, &identity))
@@ -151,7 +152,7 @@ void meshes_ahead_read(const struct loader *loader, struct meshes_ahead **out) {
     str_map_init(&ahead->names, input->arena);
     str_map_init(&ahead->paths, input->arena);
     for (uint32_t i = 0; i < scene->models.count; i++)
-        if (scene->models.items[i].mesh.len)
+        if (loader_names_file(&scene->models.items[i]))
             consider(ahead, loader, &scene->models.items[i]);
     // The log gets each file when it is used.
     const uint32_t logged = input->files->log.count;

@@ -204,11 +204,18 @@ static void report_bare(struct loader *loader, const struct assets_model *model,
         if (count++ == 0)
             first = triangle->line;
     }
-    if (count &&
-        asset_report_line(&loaded->file, DIAG_COORDINATES_MISSING, first,
-                          "%u face%s no texture coordinates and a material with an image: %s shown in "
-                          "the image's colour at 0, 0",
-                          count, count == 1 ? " has" : "s have", count == 1 ? "it is" : "they are"))
+    if (count && loaded->made) {
+        diag_add(loader->input->sink, DIAG_COORDINATES_MISSING, loaded->file.named_at,
+                 "the faces of mesh '%.*s' have no 'uv', and a material with an image: they are shown in the "
+                 "image's colour at 0, 0",
+                 STR_ARG(loaded->name));
+        diag_help(loader->input->sink,
+                  "write 'uv', one of each vertex, or give the model a material without an image");
+    } else if (count &&
+               asset_report_line(&loaded->file, DIAG_COORDINATES_MISSING, first,
+                                 "%u face%s no texture coordinates and a material with an image: %s shown in "
+                                 "the image's colour at 0, 0",
+                                 count, count == 1 ? " has" : "s have", count == 1 ? "it is" : "they are"))
         diag_help(loader->input->sink, "unwrap the mesh in a 3D program and export them (vt in OBJ; u and v, "
                                        "or s and t, of vertices in PLY; STL "
                                        "has none), or give the model a material without an image");

@@ -68,6 +68,22 @@ enum ir_wrap {
     IR_WRAP_CLAMP,
     IR_WRAP_MIRROR
 };
+enum ir_mesh_kind {
+    IR_MESH_LATHE,
+    IR_MESH_TORUS,
+    IR_MESH_EXTRUDE,
+    IR_MESH_FACES,
+    IR_MESH_TEXT
+};
+enum ir_curve {
+    IR_CURVE_LINEAR,
+    IR_CURVE_SMOOTH
+};
+enum ir_align {
+    IR_ALIGN_LEFT,
+    IR_ALIGN_CENTER,
+    IR_ALIGN_RIGHT
+};
 enum ir_interpolation {
     IR_INTERPOLATION_LINEAR,
     IR_INTERPOLATION_SMOOTH,
@@ -207,32 +223,157 @@ struct ir_sphere {
     str name;
     vec3 center;
     double radius;
-    struct ir_material_ref material;
+    struct ir_reference material;
 };
 
 struct ir_rectangle {
     struct ir_head head;
     str name;
     vec3 corner, edge_u, edge_v;
-    struct ir_material_ref material;
+    struct ir_reference material;
+};
+
+struct ir_box {
+    struct ir_head head;
+    str name;
+    vec3 center, size, rotation; // degrees, as a model's
+    struct ir_reference material;
+};
+
+struct ir_cylinder {
+    struct ir_head head;
+    str name;
+    vec3 from, to; // middles of its ends
+    double radius;
+    struct ir_reference material;
+};
+
+struct ir_cone {
+    struct ir_head head;
+    str name;
+    vec3 from, to; // middles of its ends
+    double radius_from, radius_to;
+    struct ir_reference material;
 };
 
 struct ir_map_entry {
     struct ir_head head;
     str from; // name of a material in the mesh
-    struct ir_material_ref to;
+    struct ir_reference to;
 };
 struct ir_map_entries {
     struct ir_map_entry *items;
     uint32_t count, capacity;
 };
 
+// ---- meshes that the file describes
+
+struct ir_outline_point {
+    struct ir_head head;
+    struct ir_point at;
+};
+struct ir_outline {
+    struct ir_outline_point *items;
+    uint32_t count, capacity;
+};
+struct ir_hole {
+    struct ir_head head;
+    struct ir_outline points;
+};
+struct ir_holes {
+    struct ir_hole *items;
+    uint32_t count, capacity;
+};
+
+struct ir_lathe {
+    struct ir_head head;
+    struct ir_outline profile; // x: distance from the axis
+    unsigned curve;            // ir_curve
+    double angle;              // degrees
+};
+
+struct ir_torus {
+    struct ir_head head;
+    double radius, tube;
+};
+
+struct ir_extrude {
+    struct ir_head head;
+    struct ir_outline outline;
+    struct ir_holes holes;
+    unsigned curve; // ir_curve
+    double height, bevel;
+};
+
+struct ir_vertex {
+    struct ir_head head;
+    vec3 at;
+};
+struct ir_vertices {
+    struct ir_vertex *items;
+    uint32_t count, capacity;
+};
+struct ir_coordinate {
+    struct ir_head head;
+    struct ir_pair at;
+};
+struct ir_coordinates {
+    struct ir_coordinate *items;
+    uint32_t count, capacity;
+};
+struct ir_corner {
+    struct ir_head head;
+    int32_t vertex;
+};
+struct ir_corners {
+    struct ir_corner *items;
+    uint32_t count, capacity;
+};
+struct ir_face {
+    struct ir_head head;
+    struct ir_corners corners;
+};
+struct ir_faces_list {
+    struct ir_face *items;
+    uint32_t count, capacity;
+};
+struct ir_faces {
+    struct ir_head head;
+    struct ir_vertices vertices;
+    struct ir_coordinates uv; // none, or one of each vertex
+    struct ir_faces_list faces;
+};
+
+struct ir_text {
+    struct ir_head head;
+    str string;
+    str font; // path as written
+    double height, depth, bevel;
+    unsigned align; // ir_align
+};
+
+struct ir_mesh {
+    struct ir_head head;
+    str name;      // empty: anonymous, written inline where it is used
+    unsigned kind; // ir_mesh_kind
+    struct ir_lathe lathe;
+    struct ir_torus torus;
+    struct ir_extrude extrude;
+    struct ir_faces faces;
+    struct ir_text text;
+    double tolerance; // share of the size
+};
+struct ir_meshes {
+    struct ir_mesh *items;
+    uint32_t count, capacity;
+};
+
 struct ir_model {
     struct ir_head head;
     str name;
-    str mesh; // path as written
-    str part; // of a mesh file that has several; empty: all of it
-    struct ir_material_ref material;
+    struct ir_reference mesh; // without an index the path of a file
+    str part;                 // of a mesh file that has several; empty: all of it
+    struct ir_reference material;
     struct ir_map_entries material_map;
     bool smooth;
     vec3 scale, rotation, translation; // degrees; T·Rz·Ry·Rx·S
@@ -300,6 +441,18 @@ struct ir_rectangles {
     struct ir_rectangle *items;
     uint32_t count, capacity;
 };
+struct ir_boxes {
+    struct ir_box *items;
+    uint32_t count, capacity;
+};
+struct ir_cylinders {
+    struct ir_cylinder *items;
+    uint32_t count, capacity;
+};
+struct ir_cones {
+    struct ir_cone *items;
+    uint32_t count, capacity;
+};
 struct ir_models {
     struct ir_model *items;
     uint32_t count, capacity;
@@ -318,15 +471,20 @@ struct ir_scene {
     struct ir_cameras cameras;
     struct ir_lights lights;
     struct ir_materials materials; // named and anonymous ones
+    struct ir_meshes meshes;       // the same
     struct ir_spheres spheres;
     struct ir_rectangles rectangles;
+    struct ir_boxes boxes;
+    struct ir_cylinders cylinders;
+    struct ir_cones cones;
     struct ir_models models;
     struct ir_animation animation; // at its defaults once a frame was taken: ir_origin.motion
 };
 
-// Bodies are numbered spheres, rectangles, models, each in file order.
+// Bodies are numbered spheres, rectangles, boxes, cylinders, cones, models, each in file order.
 static inline uint32_t ir_body_count(const struct ir_scene *scene) {
-    return scene->spheres.count + scene->rectangles.count + scene->models.count;
+    return scene->spheres.count + scene->rectangles.count + scene->boxes.count + scene->cylinders.count +
+           scene->cones.count + scene->models.count;
 }
 
 #endif

@@ -41,13 +41,14 @@ static void hash_value(struct hash128 *h, const struct schema_row *row, const vo
         break;
     case SCHEMA_VECTOR:
     case SCHEMA_PAIR:
+    case SCHEMA_POINT:
     case SCHEMA_WEIGHTS:
         for (uint32_t i = 0, count = ir_walk_components(row, field, numbers); i < count; i++)
             hash128_number(h, numbers[i]);
         break;
     case SCHEMA_REFERENCE:
-        hash128_text(h, ((const struct ir_material_ref *)field)->name);
-        hash128_whole(h, ((const struct ir_material_ref *)field)->index);
+        hash128_text(h, ((const struct ir_reference *)field)->name);
+        hash128_whole(h, ((const struct ir_reference *)field)->index);
         break;
     case SCHEMA_ELEMENT:
         ir_hash(h, row->child, field);

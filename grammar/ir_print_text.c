@@ -184,7 +184,7 @@ void print_plain_value(struct strbuf *out, const struct schema_row *row, const v
         strbuf_str(out, *(const str *)field);
         break;
     case SCHEMA_REFERENCE:
-        strbuf_str(out, ((const struct ir_material_ref *)field)->name);
+        strbuf_str(out, ((const struct ir_reference *)field)->name);
         break;
     default:
         break;

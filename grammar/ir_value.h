@@ -31,9 +31,16 @@ struct ir_pair {
     double u, v;
 };
 
-struct ir_material_ref {
-    str name;       // as written; empty for an inline material
-    uint32_t index; // in scene.materials; IR_NO_INDEX: none written, or not found
+// In a plane.
+struct ir_point {
+    double x, y;
+};
+
+// To a material or a mesh.
+struct ir_reference {
+    str name; // as written; empty for an element in place
+    uint32_t
+        index; // in the scene's list of its kind; IR_NO_INDEX: none written, or not found, or a file's path
 };
 
 // How a picture is displayed: words of the image element, known to pictures without a scene too.

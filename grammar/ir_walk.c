@@ -42,7 +42,7 @@ const struct schema_row *ir_walk_pool(const struct schema_element *target) {
 }
 
 const void *ir_walk_referent(const struct ir_scene *scene, const struct schema_row *row,
-                             const struct ir_material_ref *reference) {
+                             const struct ir_reference *reference) {
     const struct schema_row *pool = ir_walk_pool(row->child);
     if (!scene || !pool)
         return NULL;
@@ -51,7 +51,7 @@ const void *ir_walk_referent(const struct ir_scene *scene, const struct schema_r
 }
 
 bool ir_walk_is_inline(const struct ir_scene *scene, const struct schema_row *row,
-                       const struct ir_material_ref *reference) {
+                       const struct ir_reference *reference) {
     return reference->name.len == 0 && ir_walk_referent(scene, row, reference);
 }
 
@@ -102,6 +102,11 @@ uint32_t ir_walk_components(const struct schema_row *row, const void *field, dou
         out[0] = p->u, out[1] = p->v;
         return 2;
     }
+    if (row->kind == SCHEMA_POINT) {
+        const struct ir_point *p = field;
+        out[0] = p->x, out[1] = p->y;
+        return 2;
+    }
     if (row->kind == SCHEMA_COLOR) {
         const struct ir_color *c = field;
         out[0] = c->r, out[1] = c->g, out[2] = c->b;
@@ -115,13 +120,23 @@ uint32_t ir_walk_components(const struct schema_row *row, const void *field, dou
     return 0;
 }
 
+const str *ir_walk_path(const struct schema_row *row, const void *element) {
+    const void *field = schema_field_const(row, element);
+    if (row->kind == SCHEMA_TEXT)
+        return row->text == SCHEMA_TEXT_PATH ? field : NULL;
+    if (row->kind != SCHEMA_REFERENCE || row->file == SCHEMA_FILE_NONE)
+        return NULL;
+    const str *name = &((const struct ir_reference *)field)->name;
+    return memchr(name->ptr, '.', name->len) || memchr(name->ptr, '/', name->len) ? name : NULL;
+}
+
 static void walk_paths(const struct schema_element *schema, void *element, ir_walk_visit_path *visit,
                        void *context) {
     for (uint32_t i = 0; i < schema->row_count; i++) {
         const struct schema_row *row = &schema->rows[i];
         struct ir_any_list list = ir_walk_list(row, element);
-        if (row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_PATH && ir_walk_written(schema, i, element))
-            visit(context, schema, element, row, schema_field(row, element));
+        if (ir_walk_path(row, element) && ir_walk_written(schema, i, element))
+            visit(context, schema, element, row, (str *)ir_walk_path(row, element));
         if (row->kind == SCHEMA_ELEMENT)
             walk_paths(row->child, schema_field(row, element), visit, context);
         for (uint32_t k = 0; k < list.count; k++)

@@ -7,7 +7,7 @@
 #include "core/arena.h"
 
 struct ir_head;
-struct ir_material_ref;
+struct ir_reference;
 struct ir_scene;
 struct schema_element;
 struct schema_row;
@@ -32,10 +32,10 @@ str ir_walk_key(const struct schema_element *schema, const void *element);
 const struct schema_row *ir_walk_pool(const struct schema_element *target);
 // What a SCHEMA_REFERENCE row refers to: NULL if nothing was written or found.
 const void *ir_walk_referent(const struct ir_scene *scene, const struct schema_row *row,
-                             const struct ir_material_ref *reference);
+                             const struct ir_reference *reference);
 // Whether the reference is a body written in place, not a name.
 bool ir_walk_is_inline(const struct ir_scene *scene, const struct schema_row *row,
-                       const struct ir_material_ref *reference);
+                       const struct ir_reference *reference);
 
 // Whether the file gave row `i`. Lists: whether they have an item to show. Keys: whether there is a key.
 bool ir_walk_written(const struct schema_element *schema, uint32_t i, const void *element);
@@ -47,6 +47,10 @@ int ir_walk_short(const struct ir_scene *scene, const struct schema_element *sch
 // The components of a vector, colour or weights; returns their number, 0 for other kinds.
 uint32_t ir_walk_components(const struct schema_row *row, const void *field, double out[4]);
 
+// The path of a file that this row of an element holds, written or not; NULL: it holds none. A reference has
+// one if the row may name a file and the text is not a name, but has a point or a slash.
+const str *ir_walk_path(const struct schema_row *row, const void *element);
+
 // Calls `visit`, which may change it, for each file path in the scene.
 typedef void ir_walk_visit_path(void *context, const struct schema_element *schema, void *element,
                                 const struct schema_row *row, str *path);
@@ -54,7 +58,7 @@ void ir_walk_paths(struct ir_scene *scene, ir_walk_visit_path *visit, void *cont
 
 // Calls `visit` for each reference in the scene, found or not.
 typedef void ir_walk_visit_reference(void *context, const struct schema_row *row,
-                                     const struct ir_material_ref *reference);
+                                     const struct ir_reference *reference);
 void ir_walk_references(const struct ir_scene *scene, ir_walk_visit_reference *visit, void *context);
 
 static inline const struct ir_head *ir_walk_head(const void *element) {

@@ -412,6 +412,65 @@ static const struct schema_row rectangle_rows[] = {
 const struct schema_element SCHEMA_RECTANGLE = {ELEMENT(
     "rectangle", "Rectangle", ir_rectangle, rectangle_rows, "A flat parallelogram, seen from both sides.")};
 
+static const struct schema_row box_rows[] = {
+    BODY_NAME(ir_box, "crate"),
+    {.name = "center", .element = "Center", FIELD(ir_box, center), .example = "0 0.6 0",
+     .also = "pos position location origin translation middle",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
+     .doc = "Middle of the box."},
+    {.name = "size", .element = "Size", FIELD(ir_box, size), .example = "2 1 0.5",
+     .also = "scale dimensions extent lengths edges",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_LENGTH, .required = true, .fill = true,
+     .doc = "Lengths of the edges along x, y and z, before the box is turned; one number is a cube."},
+    {.name = "rotation", .element = "Rotation", FIELD(ir_box, rotation), .example = "0 30 0",
+     .also = "orientation angles rotate",
+     .unit = SCHEMA_UNIT_DEGREES, .range = SCHEMA_RANGE_ANGLE, .standard = "0 0 0",
+     .doc = "Turns the box around its middle, about x, then y, then z."},
+    BODY_MATERIAL(ir_box),
+};
+const struct schema_element SCHEMA_BOX = {
+    ELEMENT("box", "Box", ir_box, box_rows, "A box: six faces at right angles, with an inside.")};
+
+static const struct schema_row cylinder_rows[] = {
+    BODY_NAME(ir_cylinder, "column"),
+    {.name = "from", .element = "From", FIELD(ir_cylinder, from), .example = "0 0 0",
+     .also = "base begin bottom start base_point center position",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
+     .doc = "Middle of the disc that it begins with."},
+    {.name = "to", .element = "To", FIELD(ir_cylinder, to), .example = "0 3 0",
+     .also = "cap end tip top cap_point apex",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
+     .doc = "Middle of the disc that it ends with."},
+    {.name = "radius", FIELD(ir_cylinder, radius), .example = "0.4", .unit = SCHEMA_UNIT_SCENE,
+     .also = "r size diameter thickness",
+     .range = SCHEMA_RANGE_LENGTH, .required = true, .doc = "Distance from the axis to the surface."},
+    BODY_MATERIAL(ir_cylinder),
+};
+const struct schema_element SCHEMA_CYLINDER = {ELEMENT("cylinder", "Cylinder", ir_cylinder, cylinder_rows,
+                                                       "A cylinder: round, closed by two discs, with an inside.")};
+
+static const struct schema_row cone_rows[] = {
+    BODY_NAME(ir_cone, "roof"),
+    {.name = "from", .element = "From", FIELD(ir_cone, from), .example = "0 0 0",
+     .also = "base begin bottom start base_point center position",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
+     .doc = "Middle of the disc that it begins with."},
+    {.name = "to", .element = "To", FIELD(ir_cone, to), .example = "0 2 0",
+     .also = "cap end tip top cap_point apex",
+     .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
+     .doc = "Middle of the disc that it ends with, or its tip."},
+    {.name = "radius_from", FIELD(ir_cone, radius_from), .example = "1", .unit = SCHEMA_UNIT_SCENE,
+     .also = "radius r base_radius bottom_radius radius_bottom",
+     .range = SCHEMA_RANGE_SIZE, .required = true, .doc = "Radius at 'from'; 0 is a tip."},
+    {.name = "radius_to", FIELD(ir_cone, radius_to), .example = "0", .unit = SCHEMA_UNIT_SCENE,
+     .also = "cap_radius top_radius radius_top tip_radius",
+     .range = SCHEMA_RANGE_SIZE, .required = true, .doc = "Radius at 'to'; 0 is a tip."},
+    BODY_MATERIAL(ir_cone),
+};
+const struct schema_element SCHEMA_CONE = {
+    ELEMENT("cone", "Cone", ir_cone, cone_rows,
+            "A cone, whole or cut off: round, closed by discs where it does not end in a tip, with an inside.")};
+
 static const struct schema_row map_entry_rows[] = {
     {.name = "from", FIELD(ir_map_entry, from), .example = "Gold", .text = SCHEMA_TEXT_FOREIGN_NAME,
      .key = true, .required = true, .doc = "Name of a material in the mesh file."},
@@ -425,9 +484,10 @@ const struct schema_element SCHEMA_MAP_ENTRY = {
 
 static const struct schema_row model_rows[] = {
     BODY_NAME(ir_model, "dragon"),
-    {.name = "mesh", FIELD(ir_model, mesh), .example = "dragon.obj", .text = SCHEMA_TEXT_PATH,
+    {.name = "mesh", .element = "Mesh", FIELD(ir_model, mesh), .example = "dragon.obj", .child = &SCHEMA_MESH,
      .also = "file path filename src geometry obj ply stl shape",
-     .file = SCHEMA_FILE_MESH, .required = true, .doc = "Path of a mesh file."},
+     .file = SCHEMA_FILE_MESH, .required = true,
+     .doc = "Path of a mesh file, the name of one of the scene's meshes, or a mesh of its own."},
     {.name = "part", FIELD(ir_model, part), .example = "wheel", .example_alone = true, .text = SCHEMA_TEXT_FOREIGN_NAME,
      .also = "submesh sub_mesh object_name mesh_name",
      .doc = "What to show of a glTF file: the name of one of its meshes, 'mesh 3' or 'node 7' by number; if left out, "
@@ -485,33 +545,30 @@ static const struct schema_row scene_rows[] = {
     {.name = "material", .element = "Material", .plural = "materials", FIELD(ir_scene, materials),
      .also = "shader shaders bsdf bsdfs",
      .many = SCHEMA_NAMED_MAP, .child = &SCHEMA_MATERIAL, .doc = "Materials by name."},
+    {.name = "mesh", .element = "Mesh", .plural = "meshes", FIELD(ir_scene, meshes), .example_alone = true,
+     .also = "geometry geometries",
+     .many = SCHEMA_NAMED_MAP, .child = &SCHEMA_MESH, .doc = "Meshes that models show, by name."},
     {.name = "sphere", .element = "Sphere", .plural = "spheres", FIELD(ir_scene, spheres),
      .also = "ball balls",
      .many = SCHEMA_SEQUENCE, .child = &SCHEMA_SPHERE, .feature = FEATURE_SPHERES, .doc = "Spheres."},
     {.name = "rectangle", .element = "Rectangle", .plural = "rectangles", FIELD(ir_scene, rectangles),
      .also = "rect rects quad quads",
      .many = SCHEMA_SEQUENCE, .child = &SCHEMA_RECTANGLE, .feature = FEATURE_TRIANGLES, .doc = "Rectangles."},
+    {.name = "box", .element = "Box", .plural = "boxes", FIELD(ir_scene, boxes),
+     .also = "cube cubes cuboid cuboids block blocks",
+     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_BOX, .feature = FEATURE_TRIANGLES, .doc = "Boxes."},
+    {.name = "cylinder", .element = "Cylinder", .plural = "cylinders", FIELD(ir_scene, cylinders),
+     .also = "tube tubes column columns pillar pillars rod rods",
+     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_CYLINDER, .feature = FEATURE_CONES, .doc = "Cylinders."},
+    {.name = "cone", .element = "Cone", .plural = "cones", FIELD(ir_scene, cones),
+     .also = "truncated_cone truncated_cones frustum frustums",
+     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_CONE, .feature = FEATURE_CONES, .doc = "Cones, whole or cut off."},
     {.name = "model", .element = "Model", .plural = "models", FIELD(ir_scene, models),
-     .also = "mesh meshes object objects shape shapes obj",
+     .also = "object objects shape shapes obj",
      .many = SCHEMA_SEQUENCE, .child = &SCHEMA_MODEL, .feature = FEATURE_TRIANGLES, .doc = "Meshes placed in the scene."},
     {.name = "animation", .element = "Animation", FIELD(ir_scene, animation), .child = &SCHEMA_ANIMATION,
      .also = "animate motion keyframes timeline", .doc = "How values move from frame to frame."},
 };
 const struct schema_element SCHEMA_SCENE = {
     ELEMENT("scene", "Scene", ir_scene, scene_rows, "The root of a scene file.")};
-
 // clang-format on
-
-const struct schema_element *const schema_elements[] = {
-    &SCHEMA_SCENE,     &SCHEMA_INCLUDE,
-    &SCHEMA_IMAGE,     &SCHEMA_TRACE,
-    &SCHEMA_CAMERA,    &SCHEMA_BACKGROUND,
-    &SCHEMA_AMBIENT,   &SCHEMA_LIGHT,
-    &SCHEMA_PANEL,     &SCHEMA_MATERIAL,
-    &SCHEMA_PAINT,     &SCHEMA_CHECKER,
-    &SCHEMA_TEXTURE,   &SCHEMA_HIGHLIGHT,
-    &SCHEMA_SPHERE,    &SCHEMA_RECTANGLE,
-    &SCHEMA_MODEL,     &SCHEMA_MAP_ENTRY,
-    &SCHEMA_ANIMATION, &SCHEMA_TRACK,
-    &SCHEMA_KEYFRAME,  NULL,
-};

@@ -23,10 +23,12 @@ enum schema_kind {
     SCHEMA_TEXT,      // str: see schema_text
     SCHEMA_VECTOR,    // vec3: x y z
     SCHEMA_PAIR,      // struct ir_pair: u v
+    SCHEMA_POINT,     // struct ir_point: x y
     SCHEMA_COLOR,     // struct ir_color: r g b, one number, or #rrggbb (an XML element: hex="#rrggbb")
     SCHEMA_WEIGHTS,   // struct ir_weights: diffuse specular reflection refraction
     SCHEMA_ELEMENT,   // a child struct, described by `child`
-    SCHEMA_REFERENCE, // struct ir_material_ref: a name, or a body that becomes an anonymous element
+    SCHEMA_REFERENCE, // struct ir_reference: a name, or a body that becomes an anonymous element; of a row
+                      // with a `file`, text with a point is the path of one
     SCHEMA_LIST,      // {items, count, capacity} of `child`
 };
 
@@ -50,6 +52,7 @@ enum schema_file {
     SCHEMA_FILE_SCENE,
     SCHEMA_FILE_IMAGE,
     SCHEMA_FILE_MESH,
+    SCHEMA_FILE_FONT,
 };
 
 enum schema_unit {
@@ -80,6 +83,9 @@ enum schema_range {
     SCHEMA_RANGE_SHIFT,      // -1e6..1e6
     SCHEMA_RANGE_SIZE,       // 0..1e18
     SCHEMA_RANGE_OPENING,    // 0..180
+    SCHEMA_RANGE_TURN,       // above 0, up to 360
+    SCHEMA_RANGE_TOLERANCE,  // 1e-6..0.1
+    SCHEMA_RANGE_CORNER,     // 0..RANGE_CORNER_MOST
     SCHEMA_RANGE_FRAMES,     // 1..RANGE_FRAMES_MOST
     SCHEMA_RANGE_FRAME,      // 0..RANGE_FRAMES_MOST
     SCHEMA_RANGE_RATE,       // 0.001..1000
@@ -121,9 +127,10 @@ struct schema_row {
     enum schema_file file; // SCHEMA_TEXT_PATH
     enum schema_unit unit;
     enum schema_range range;
-    const char *standard;     // the default, as scene text ("0 1 0", "clip", "true"); NULL: none
-    const char *example;      // a value worth showing, as scene text; NULL if examples leave the row out
-    bool example_alone;       // the example shows the row alone: the element's example leaves it out
+    const char *standard; // the default, as scene text ("0 1 0", "clip", "true"); NULL: none
+    const char *example;  // a value worth showing, as scene text; NULL if examples leave the row out. Of a
+                          // SCHEMA_LIST: the short rows of its items, ", " between them
+    bool example_alone;   // the example shows the row alone: the element's example leaves it out
     const char *example_next; // SCHEMA_FIXED: of the values after the first
     const char *const *words; // SCHEMA_WORD: in the order of the enum, NULL at the end
     const char *const *word_docs;
@@ -162,8 +169,10 @@ struct schema_element {
 
 extern const struct schema_element SCHEMA_SCENE, SCHEMA_INCLUDE, SCHEMA_IMAGE, SCHEMA_TRACE, SCHEMA_CAMERA,
     SCHEMA_BACKGROUND, SCHEMA_AMBIENT, SCHEMA_LIGHT, SCHEMA_PANEL, SCHEMA_MATERIAL, SCHEMA_PAINT,
-    SCHEMA_CHECKER, SCHEMA_TEXTURE, SCHEMA_HIGHLIGHT, SCHEMA_SPHERE, SCHEMA_RECTANGLE, SCHEMA_MODEL,
-    SCHEMA_MAP_ENTRY, SCHEMA_ANIMATION, SCHEMA_TRACK, SCHEMA_KEYFRAME;
+    SCHEMA_CHECKER, SCHEMA_TEXTURE, SCHEMA_HIGHLIGHT, SCHEMA_MESH, SCHEMA_LATHE, SCHEMA_OUTLINE_POINT,
+    SCHEMA_TORUS, SCHEMA_EXTRUDE, SCHEMA_HOLE, SCHEMA_FACES, SCHEMA_VERTEX, SCHEMA_UV, SCHEMA_FACE,
+    SCHEMA_CORNER, SCHEMA_MESH_TEXT, SCHEMA_SPHERE, SCHEMA_RECTANGLE, SCHEMA_BOX, SCHEMA_CYLINDER,
+    SCHEMA_CONE, SCHEMA_MODEL, SCHEMA_MAP_ENTRY, SCHEMA_ANIMATION, SCHEMA_TRACK, SCHEMA_KEYFRAME;
 
 // All elements, the scene first; NULL at the end.
 extern const struct schema_element *const schema_elements[];
@@ -191,6 +200,7 @@ bool schema_is_attribute(const struct schema_row *row);
 const char *schema_yaml_key(const struct schema_row *row);
 // Names of a kind's components: {"x","y","z"}, {"r","g","b"}, {"diffuse",...}; NULL at the end.
 const char *const *schema_components(enum schema_kind kind);
+uint32_t schema_component_count(enum schema_kind kind); // 0: it has none
 // Endings of the files of a kind: {".png", ".jpg", ...}; NULL at the end.
 const char *const *schema_file_endings(enum schema_file kind);
 // The same as words: ".png, .jpg, .jpeg or .hdr".

@@ -18,9 +18,10 @@
         str: SCHEMA_TEXT,                                                                                    \
         vec3: SCHEMA_VECTOR,                                                                                 \
         struct ir_pair: SCHEMA_PAIR,                                                                         \
+        struct ir_point: SCHEMA_POINT,                                                                       \
         struct ir_color: SCHEMA_COLOR,                                                                       \
         struct ir_weights: SCHEMA_WEIGHTS,                                                                   \
-        struct ir_material_ref: SCHEMA_REFERENCE,                                                            \
+        struct ir_reference: SCHEMA_REFERENCE,                                                            \
         struct ir_image: SCHEMA_ELEMENT,                                                                     \
         struct ir_trace: SCHEMA_ELEMENT,                                                                     \
         struct ir_background: SCHEMA_ELEMENT,                                                                \
@@ -30,13 +31,28 @@
         struct ir_checker: SCHEMA_ELEMENT,                                                                   \
         struct ir_texture: SCHEMA_ELEMENT,                                                                   \
         struct ir_highlight: SCHEMA_ELEMENT,                                                                 \
+        struct ir_lathe: SCHEMA_ELEMENT,                                                                     \
+        struct ir_torus: SCHEMA_ELEMENT,                                                                     \
+        struct ir_extrude: SCHEMA_ELEMENT,                                                                   \
+        struct ir_faces: SCHEMA_ELEMENT,                                                                     \
+        struct ir_text: SCHEMA_ELEMENT,                                                                      \
         struct ir_animation: SCHEMA_ELEMENT,                                                                 \
         struct ir_includes: SCHEMA_LIST,                                                                     \
         struct ir_cameras: SCHEMA_LIST,                                                                      \
         struct ir_lights: SCHEMA_LIST,                                                                       \
         struct ir_materials: SCHEMA_LIST,                                                                    \
+        struct ir_meshes: SCHEMA_LIST,                                                                       \
+        struct ir_outline: SCHEMA_LIST,                                                                      \
+        struct ir_holes: SCHEMA_LIST,                                                                        \
+        struct ir_vertices: SCHEMA_LIST,                                                                     \
+        struct ir_coordinates: SCHEMA_LIST,                                                                  \
+        struct ir_corners: SCHEMA_LIST,                                                                      \
+        struct ir_faces_list: SCHEMA_LIST,                                                                   \
         struct ir_spheres: SCHEMA_LIST,                                                                      \
         struct ir_rectangles: SCHEMA_LIST,                                                                   \
+        struct ir_boxes: SCHEMA_LIST,                                                                        \
+        struct ir_cylinders: SCHEMA_LIST,                                                                    \
+        struct ir_cones: SCHEMA_LIST,                                                                        \
         struct ir_models: SCHEMA_LIST,                                                                       \
         struct ir_map_entries: SCHEMA_LIST,                                                                  \
         struct ir_tracks: SCHEMA_LIST,                                                                       \

@@ -36,6 +36,10 @@ static const struct schema_range_info ranges[SCHEMA_RANGE_COUNT] = {
     [SCHEMA_RANGE_SHIFT] = {"shift", -1e6, 1e6, false, false, "from -1e6 to 1e6"},
     [SCHEMA_RANGE_SIZE] = {"size", 0, 1e18, false, false, "from 0 to 1e18"},
     [SCHEMA_RANGE_OPENING] = {"opening", 0, 180, false, false, "from 0 to 180"},
+    [SCHEMA_RANGE_TURN] = {"turn", 0, 360, true, false, "greater than 0 and at most 360"},
+    [SCHEMA_RANGE_TOLERANCE] = {"tolerance", 1e-6, 0.1, false, false, "from 1e-6 to 0.1"},
+    [SCHEMA_RANGE_CORNER] = {"corner", 0, RANGE_CORNER_MOST, false, false,
+                             "from 0 to " RANGE_TEXT(RANGE_CORNER_MOST)},
     [SCHEMA_RANGE_FRAMES] = {"frames", 1, RANGE_FRAMES_MOST, false, false,
                              "from 1 to " RANGE_TEXT(RANGE_FRAMES_MOST)},
     [SCHEMA_RANGE_FRAME] = {"frame", 0, RANGE_FRAMES_MOST, false, false,
@@ -43,6 +47,48 @@ static const struct schema_range_info ranges[SCHEMA_RANGE_COUNT] = {
     [SCHEMA_RANGE_RATE] = {"rate", RANGE_RATE_LEAST, RANGE_RATE_MOST, false, false,
                            "from " RANGE_TEXT(RANGE_RATE_LEAST) " to " RANGE_TEXT(RANGE_RATE_MOST)},
 };
+
+// clang-format off
+const struct schema_element *const schema_elements[] = {
+    &SCHEMA_SCENE,
+    &SCHEMA_INCLUDE,
+    &SCHEMA_IMAGE,
+    &SCHEMA_TRACE,
+    &SCHEMA_CAMERA,
+    &SCHEMA_BACKGROUND,
+    &SCHEMA_AMBIENT,
+    &SCHEMA_LIGHT,
+    &SCHEMA_PANEL,
+    &SCHEMA_MATERIAL,
+    &SCHEMA_PAINT,
+    &SCHEMA_CHECKER,
+    &SCHEMA_TEXTURE,
+    &SCHEMA_HIGHLIGHT,
+    &SCHEMA_MESH,
+    &SCHEMA_LATHE,
+    &SCHEMA_OUTLINE_POINT,
+    &SCHEMA_TORUS,
+    &SCHEMA_EXTRUDE,
+    &SCHEMA_HOLE,
+    &SCHEMA_FACES,
+    &SCHEMA_VERTEX,
+    &SCHEMA_UV,
+    &SCHEMA_FACE,
+    &SCHEMA_CORNER,
+    &SCHEMA_MESH_TEXT,
+    &SCHEMA_SPHERE,
+    &SCHEMA_RECTANGLE,
+    &SCHEMA_BOX,
+    &SCHEMA_CYLINDER,
+    &SCHEMA_CONE,
+    &SCHEMA_MODEL,
+    &SCHEMA_MAP_ENTRY,
+    &SCHEMA_ANIMATION,
+    &SCHEMA_TRACK,
+    &SCHEMA_KEYFRAME,
+    NULL,
+};
+// clang-format on
 
 const struct schema_range_info *schema_range_info(enum schema_range range) {
     return &ranges[range];
@@ -88,7 +134,7 @@ int schema_find_yaml(const struct schema_element *element, str key, bool *is_sin
 bool schema_is_attribute(const struct schema_row *row) {
     if (row->many != SCHEMA_ONE || row->kind == SCHEMA_LIST || row->kind == SCHEMA_WEIGHTS)
         return false;
-    if (row->kind == SCHEMA_VECTOR || row->kind == SCHEMA_PAIR)
+    if (row->kind == SCHEMA_VECTOR || row->kind == SCHEMA_PAIR || row->kind == SCHEMA_POINT)
         return row->fill;
     if (row->kind == SCHEMA_ELEMENT)
         return schema_short_row(row->child) >= 0;
@@ -132,23 +178,34 @@ int schema_key_row(const struct schema_element *element) {
 
 const char *const *schema_components(enum schema_kind kind) {
     static const char *const xyz[] = {"x", "y", "z", NULL};
+    static const char *const xy[] = {"x", "y", NULL};
     static const char *const uv[] = {"u", "v", NULL};
     static const char *const rgb[] = {"r", "g", "b", NULL};
     static const char *const weights[] = {"diffuse", "specular", "reflection", "refraction", NULL};
     static const char *const none[] = {NULL};
     return kind == SCHEMA_VECTOR    ? xyz
            : kind == SCHEMA_PAIR    ? uv
+           : kind == SCHEMA_POINT   ? xy
            : kind == SCHEMA_COLOR   ? rgb
            : kind == SCHEMA_WEIGHTS ? weights
                                     : none;
 }
 
+uint32_t schema_component_count(enum schema_kind kind) {
+    uint32_t count = 0;
+    for (const char *const *names = schema_components(kind); names[count];)
+        count++;
+    return count;
+}
+
 const char *const *schema_file_endings(enum schema_file kind) {
     static const char *const scenes[] = {".yaml", ".yml", ".json", ".xml", NULL};
+    static const char *const fonts[] = {".ttf", ".otf", ".ttc", NULL};
     static const char *const none[] = {NULL};
     return kind == SCHEMA_FILE_SCENE   ? scenes
            : kind == SCHEMA_FILE_IMAGE ? image_scene_endings()
            : kind == SCHEMA_FILE_MESH  ? mesh_format_endings
+           : kind == SCHEMA_FILE_FONT  ? fonts
                                        : none;
 }
 
@@ -200,7 +257,7 @@ static struct ir_color read_color(const char *text) {
 void schema_set_field(const struct schema_row *row, void *field, const char *text) {
     double n[4] = {0};
     if (row->kind == SCHEMA_INTEGER || row->kind == SCHEMA_NUMBER || row->kind == SCHEMA_VECTOR ||
-        row->kind == SCHEMA_PAIR || row->kind == SCHEMA_WEIGHTS)
+        row->kind == SCHEMA_PAIR || row->kind == SCHEMA_POINT || row->kind == SCHEMA_WEIGHTS)
         read_numbers(text, n);
     switch (row->kind) {
     case SCHEMA_BOOLEAN:
@@ -224,6 +281,9 @@ void schema_set_field(const struct schema_row *row, void *field, const char *tex
     case SCHEMA_PAIR:
         *(struct ir_pair *)field = (struct ir_pair){n[0], n[1]};
         break;
+    case SCHEMA_POINT:
+        *(struct ir_point *)field = (struct ir_point){n[0], n[1]};
+        break;
     case SCHEMA_COLOR:
         *(struct ir_color *)field = read_color(text);
         break;
@@ -231,8 +291,7 @@ void schema_set_field(const struct schema_row *row, void *field, const char *tex
         *(struct ir_weights *)field = (struct ir_weights){n[0], n[1], n[2], n[3]};
         break;
     case SCHEMA_REFERENCE:
-        *(struct ir_material_ref *)field =
-            (struct ir_material_ref){.name = str_from(text), .index = IR_NO_INDEX};
+        *(struct ir_reference *)field = (struct ir_reference){.name = str_from(text), .index = IR_NO_INDEX};
         break;
     case SCHEMA_ELEMENT:
     case SCHEMA_LIST:
@@ -244,7 +303,7 @@ static void init_field(const struct schema_row *row, void *field) {
     if (row->kind == SCHEMA_ELEMENT)
         schema_init(row->child, field);
     else if (row->kind == SCHEMA_REFERENCE)
-        ((struct ir_material_ref *)field)->index = IR_NO_INDEX;
+        ((struct ir_reference *)field)->index = IR_NO_INDEX;
     else if (row->standard)
         schema_set_field(row, field, row->standard);
 }

@@ -91,6 +91,10 @@ int lint_winding(struct lint *lint, const struct lint_body *body, vec3 point) {
         return !body->mesh ? 0
                            : lint_tree_winding(lint_tree_of(lint, body->mesh),
                                                affine3_apply(transform_inverse(*map), point));
+    case SCENE_CONE: {
+        const struct shape_cone cone = shape_cone_of(body->is);
+        return shape_cone_distance(&cone, point) < 0;
+    }
     }
     return 0;
 }

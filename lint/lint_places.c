@@ -3,6 +3,7 @@
 
 #include "assets/file/asset_file.h"
 #include "grammar/ir.h"
+#include "grammar/schema.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -38,7 +39,9 @@ span lint_place(const struct lint *lint, const struct lint_body *body) {
 }
 
 span lint_place_mesh(const struct lint *lint, const struct lint_body *body) {
-    return ir_place_value(lint->origin, body->is->head, body->is->element, "mesh");
+    return body->is->element == &SCHEMA_MODEL
+               ? ir_place_value(lint->origin, body->is->head, &SCHEMA_MODEL, "mesh")
+               : ir_place_label(lint->origin, body->is->head);
 }
 
 // The source with the mesh's text that an earlier message made, if there is one.
@@ -54,6 +57,8 @@ static uint32_t known_source(const struct source_set *sources, str path) {
 void lint_note_mesh(struct lint *lint, struct lint_mesh *mesh, uint32_t line, const char *format, ...) {
     char text[NOTE_MAX];
     va_list args;
+    if (mesh->mesh->is_made)
+        return;
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);

@@ -41,7 +41,7 @@ static void check_mesh(struct lint *lint, struct lint_mesh *mesh) {
 // there is no padding, whose bytes would count.
 struct place {
     affine3 object_to_world;
-    double radius;
+    double radius, radius_to, height;
     uint64_t mesh; // its address
     uint64_t shape;
 };
@@ -53,7 +53,8 @@ struct place_key {
 
 static struct place place_of(const struct lint *lint, uint32_t index) {
     const struct scene_body *body = lint->bodies[index].is;
-    return (struct place){body->object_to_world, body->radius, (uintptr_t)body->mesh, body->shape};
+    return (struct place){body->object_to_world, body->radius,          body->radius_to,
+                          body->height,          (uintptr_t)body->mesh, body->shape};
 }
 
 static bool is_same_place(const struct lint *lint, uint32_t a, uint32_t b) {

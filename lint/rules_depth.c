@@ -76,6 +76,17 @@ static void intersect_sphere(struct ray_hits *hits, const struct scene_body *sph
     add_hit(hits, along + sqrt(square));
 }
 
+static void intersect_cone(struct ray_hits *hits, const struct scene_body *body, vec3 origin,
+                           vec3 direction) {
+    const struct shape_cone cone = shape_cone_of(body);
+    double t[2];
+    bool side[2];
+    if (!shape_cone_crossing(&cone, origin, direction, t, side))
+        return;
+    add_hit(hits, t[0]);
+    add_hit(hits, t[1]);
+}
+
 static void intersect_body(const struct lint *lint, uint32_t index, vec3 origin, vec3 direction,
                            struct ray_hits *hits) {
     const struct lint_body *body = &lint->bodies[index];
@@ -102,6 +113,9 @@ static void intersect_body(const struct lint *lint, uint32_t index, vec3 origin,
         hits->origin = affine3_apply(back, origin);
         hits->direction = mat3_apply(back.linear, direction);
         lint_tree_on_ray(hits->tree, hits->origin, hits->direction, intersect_leaf, hits);
+        break;
+    case SCENE_CONE:
+        intersect_cone(hits, body->is, origin, direction);
         break;
     }
 }

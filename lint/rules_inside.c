@@ -120,6 +120,10 @@ static bool is_on(struct lint *lint, const struct lint_body *body, vec3 point, d
         return false;
     case SCENE_MESH:
         break;
+    case SCENE_CONE: {
+        const struct shape_cone cone = shape_cone_of(body->is);
+        return fabs(shape_cone_distance(&cone, point)) <= near;
+    }
     }
     if (!body->mesh)
         return false;
@@ -157,6 +161,10 @@ static bool reaches_out(const struct ir_light *light, const struct lint_body *bo
     const vec3 p = light->position, lower = body->box.lower, upper = body->box.upper;
     if (!(radius > 0))
         return false;
+    if (shape_traits(body->is->shape).items == SHAPE_CONE) {
+        const struct shape_cone cone = shape_cone_of(body->is);
+        return shape_cone_distance(&cone, p) + radius >= -near;
+    }
     if (shape_traits(body->is->shape).items == SHAPE_BALL)
         return vec3_length(vec3_sub(p, body->is->object_to_world.offset)) + radius >= body->is->radius - near;
     return p.x - radius < lower.x || p.y - radius < lower.y || p.z - radius < lower.z ||

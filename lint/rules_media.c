@@ -3,8 +3,9 @@
 //
 // Pairs whose boxes overlap (body_pairs.c). Spheres are compared by their distance; a sphere and a mesh by
 // the mesh's nearest and farthest points; two meshes by faces that cut each other, and else by points just
-// below the faces of one that are inside the other. Bodies that touch count as apart: an overlap within a
-// fraction of the smaller one's size is touching, since values written with few digits overlap by a hair.
+// below the faces of one that are inside the other; a cone by its distance from a sphere's centre, and else
+// by points of one that are inside the other. Bodies that touch count as apart: an overlap within a fraction
+// of the smaller one's size is touching, since values written with few digits overlap by a hair.
 #include "core/angle.h"
 #include "diag/codes/limit.h"
 #include "diag/codes/rule.h"
@@ -237,6 +238,74 @@ static enum relation meshes(const struct pair *p) {
     return APART;
 }
 
+// ---- cones
+
+// `a` is the cone. It is inside the sphere if its rims are, of which a point opposite the centre is the
+// farthest.
+static enum relation cone_and_sphere(const struct pair *p) {
+    const struct shape_cone cone = shape_cone_of(p->a->is);
+    const vec3 center = p->b->is->object_to_world.offset, to = vec3_sub(center, cone.from);
+    const double radius = p->b->is->radius, distance = shape_cone_distance(&cone, center);
+    const double y = vec3_dot(to, cone.axis), away = vec3_length(vec3_sub(to, vec3_mul(cone.axis, y)));
+    if (distance >= radius - p->tolerance)
+        return APART;
+    if (distance <= p->tolerance - radius)
+        return AROUND;
+    const double farthest = fmax(hypot(y, away + cone.radius), hypot(cone.height - y, away + cone.radius_to));
+    return farthest <= radius + p->tolerance ? INSIDE : CROSSES;
+}
+
+// A point just below the surface of a cone, of ROUNDS at each of LEVELS heights.
+enum {
+    ROUNDS = 32,
+    LEVELS = 16,
+};
+static vec3 below_side(const struct scene_body *body, uint32_t i, double depth) {
+    const double share = (i / ROUNDS) / (LEVELS - 1.0), turn = 2 * PI * (i % ROUNDS) / ROUNDS;
+    const double y = fmin(fmax(share * body->height, depth), fmax(body->height - depth, 0));
+    const double side = body->radius + (body->radius_to - body->radius) * (y / body->height);
+    const double slant = hypot(1, (body->radius_to - body->radius) / body->height);
+    const double r = fmax(side - depth * slant, 0);
+    return affine3_apply(body->object_to_world, (vec3){r * cos(turn), y, r * sin(turn)});
+}
+
+// Whether a point of a cone's or a mesh's surface is deep inside the other one; *all: whether every point
+// tried is.
+static bool has_inside(const struct pair *p, const struct lint_body *of, const struct lint_body *other,
+                       bool *all) {
+    const bool is_mesh = of->mesh != NULL;
+    const uint32_t count = is_mesh ? of->mesh->mesh->position_count : ROUNDS * LEVELS;
+    const uint32_t step = count / (ROUNDS * LEVELS) + 1;
+    bool some = false;
+    *all = true;
+    for (uint32_t i = 0; i < count; i += step) {
+        const vec3 at = is_mesh ? affine3_apply(of->is->object_to_world, of->mesh->mesh->positions[i])
+                                : below_side(of->is, i, 2 * p->tolerance);
+        bool inside = lint_is_inside(p->media->lint, other, at);
+        if (other->is->shape == SCENE_CONE) {
+            const struct shape_cone cone = shape_cone_of(other->is);
+            inside = shape_cone_distance(&cone, at) < -2 * p->tolerance;
+        }
+        some = some || inside;
+        *all = *all && inside;
+    }
+    return some;
+}
+
+// `a` is the cone; the other one a cone or a mesh. Bodies that cross without a point of one in the other are
+// missed.
+static enum relation cone_and_other(const struct pair *p) {
+    bool all_a, all_b;
+    const bool a_in_b = has_inside(p, p->a, p->b, &all_a), b_in_a = has_inside(p, p->b, p->a, &all_b);
+    if (a_in_b && b_in_a)
+        return CROSSES;
+    if (a_in_b)
+        return all_a ? INSIDE : CROSSES;
+    if (b_in_a)
+        return all_b ? AROUND : CROSSES;
+    return APART;
+}
+
 // ---- pairs
 
 // Those at exactly the same place are reported as such (W410).
@@ -244,34 +313,37 @@ static bool is_same_place(const struct lint_body *a, const struct lint_body *b) 
     const affine3 *x = &a->is->object_to_world;
     const affine3 *y = &b->is->object_to_world;
     bool same = a->is->shape == b->is->shape && a->mesh == b->mesh && a->is->radius == b->is->radius &&
+                a->is->radius_to == b->is->radius_to && a->is->height == b->is->height &&
                 vec3_is_zero(vec3_sub(x->offset, y->offset));
     for (int i = 0; i < 9; i++)
         same = same && x->linear.m[i / 3][i % 3] == y->linear.m[i / 3][i % 3];
     return same;
 }
 
-// Of media, which are only spheres and meshes.
-static bool is_sphere(const struct lint_body *body) {
-    switch (body->is->shape) {
+typedef enum relation compare_pair(const struct pair *p);
+
+// How two shapes are compared; NULL: as the other way round. Of media, which are never parallelograms.
+static compare_pair *way_to_compare(enum scene_shape a, enum scene_shape b) {
+    switch (a) {
     case SCENE_SPHERE:
-        return true;
+        return b == SCENE_SPHERE ? spheres : b == SCENE_MESH ? sphere_and_mesh : NULL;
+    case SCENE_CONE:
+        return b == SCENE_SPHERE ? cone_and_sphere : cone_and_other;
     case SCENE_PARALLELOGRAM:
     case SCENE_MESH:
         break;
     }
-    return false;
+    return b == SCENE_MESH ? meshes : NULL;
 }
 
 static enum relation relation_of(const struct pair *p) {
     if (is_same_place(p->a, p->b))
         return APART;
-    const bool is_ball = is_sphere(p->a), is_other = is_sphere(p->b);
-    if (is_ball)
-        return is_other ? spheres(p) : sphere_and_mesh(p);
-    if (!is_other)
-        return meshes(p);
+    compare_pair *way = way_to_compare(p->a->is->shape, p->b->is->shape);
+    if (way)
+        return way(p);
     const struct pair turned = {p->media, p->b, p->a, p->tolerance};
-    enum relation relation = sphere_and_mesh(&turned);
+    enum relation relation = way_to_compare(p->b->is->shape, p->a->is->shape)(&turned);
     return relation == INSIDE ? AROUND : relation == AROUND ? INSIDE : relation;
 }
 

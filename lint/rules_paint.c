@@ -1,8 +1,8 @@
 // Images and checkers that are finer than the pixels of the picture, where no filter averages over a pixel.
 //
-// Rays through a grid over the picture find spheres and rectangles, and each triangle of a mesh counts with
-// the pixels that it covers. What lies in front of a body is left out: it covers fine parts and coarse ones
-// alike.
+// Rays through a grid over the picture find spheres, rectangles and cones, and each triangle of a mesh counts
+// with the pixels that it covers. What lies in front of a body is left out: it covers fine parts and coarse
+// ones alike.
 #include "diag/codes/rule.h"
 #include "lint/lint_internal.h"
 
@@ -95,8 +95,9 @@ static void add_spot(struct looking *l, const struct spot *s) {
 
 static void own_axes(const struct scene_body *body, struct spot *s) {
     const affine3 back = transform_inverse(body->object_to_world);
+    const double cells[3] = {body->cells.x, body->cells.y, body->cells.z};
     for (int k = 0; k < 3; k++)
-        s->change[k] = (vec3){back.linear.m[k][0], back.linear.m[k][1], back.linear.m[k][2]};
+        s->change[k] = vec3_mul(mat3_row(back.linear, k), cells[k]);
 }
 
 // Longitude and latitude, as the sphere's coordinates.
@@ -123,6 +124,42 @@ static bool meet_sphere(const struct looking *l, struct view_ray ray, struct spo
     s->point = vec3_add(s->normal, body->object_to_world.offset);
     own_axes(body, s);
     sphere_change(&l->bare[s->material], body->radius, s);
+    return true;
+}
+
+// As docs/language.md has a cone's coordinates.
+static void cone_change(const struct bare *bare, const struct scene_body *body, vec3 from, bool side,
+                        bool at_to, struct spot *s) {
+    static const double TURN = 6.283185307179586477;
+    const mat3 *frame = &body->object_to_world.linear;
+    const vec3 x = mat3_column(*frame, 0), y = mat3_column(*frame, 1), z = mat3_column(*frame, 2);
+    const double a = vec3_dot(x, from), b = vec3_dot(z, from);
+    const double around2 = fmax(a * a + b * b, 1e-24 * body->height * body->height);
+    const double radius = at_to ? body->radius_to : body->radius;
+    own_axes(body, s);
+    if (!bare->image)
+        return;
+    s->change[0] = side ? vec3_mul(vec3_sub(vec3_mul(z, a), vec3_mul(x, b)), 1 / (around2 * TURN))
+                        : vec3_mul(x, 0.5 / radius);
+    s->change[1] = side ? vec3_mul(y, 1 / body->height) : vec3_mul(z, (at_to ? -0.5 : 0.5) / radius);
+    s->change[2] = (vec3){0, 0, 0};
+}
+
+static bool meet_cone(const struct looking *l, struct view_ray ray, struct spot *s) {
+    const struct scene_body *body = l->body->is;
+    const struct shape_cone cone = shape_cone_of(body);
+    double t[2];
+    bool side[2];
+    if (!shape_cone_crossing(&cone, ray.start, ray.direction, t, side) || !(t[0] > 0))
+        return false;
+    s->point = vec3_add(ray.start, vec3_mul(ray.direction, t[0]));
+    const vec3 from = vec3_sub(s->point, cone.from);
+    const vec3 across = vec3_unit(vec3_sub(from, vec3_mul(cone.axis, vec3_dot(from, cone.axis))));
+    const bool at_to = vec3_dot(ray.direction, cone.axis) < 0;
+    s->normal =
+        side[0] ? vec3_sub(vec3_mul(across, cone.height), vec3_mul(cone.axis, cone.radius_to - cone.radius))
+                : vec3_mul(cone.axis, at_to ? 1 : -1);
+    cone_change(&l->bare[s->material], body, from, side[0], at_to, s);
     return true;
 }
 
@@ -194,6 +231,9 @@ static void look_at(struct looking *l) {
         return;
     case SCENE_PARALLELOGRAM:
         look_at_shape(l, meet_sheet);
+        return;
+    case SCENE_CONE:
+        look_at_shape(l, meet_cone);
         return;
     case SCENE_MESH:
         break;

@@ -4,8 +4,8 @@
 #include "grammar/schema.h"
 
 const char *inventory_role_name(enum inventory_role role) {
-    static const char *const names[INVENTORY_ROLES] = {"scene",     "include", "mesh",
-                                                       "materials", "image",   "settings"};
+    static const char *const names[INVENTORY_ROLES] = {"scene", "include", "mesh",    "materials",
+                                                       "image", "font",    "settings"};
     return names[role];
 }
 
@@ -42,7 +42,9 @@ static enum inventory_role role_of(const struct asset_use *use) {
     // A material file names images; a mesh names material files.
     if (use->named_in.len)
         return assets_is_mesh_path(use->named_in) ? INVENTORY_MATERIALS : INVENTORY_IMAGE;
-    return assets_is_mesh_path(use->path) ? INVENTORY_MESH : INVENTORY_IMAGE;
+    return assets_is_mesh_path(use->path)                  ? INVENTORY_MESH
+           : schema_file_fits(SCHEMA_FILE_FONT, use->path) ? INVENTORY_FONT
+                                                           : INVENTORY_IMAGE;
 }
 
 static void add_assets(struct session *session, struct inventory *out) {

@@ -13,6 +13,7 @@ enum inventory_role {
     INVENTORY_MESH,      // what a model names
     INVENTORY_MATERIALS, // what a mesh names
     INVENTORY_IMAGE,     // the background
+    INVENTORY_FONT,      // what a text is written in
     INVENTORY_SETTINGS,  // .glintrc.yaml
     INVENTORY_ROLES,
 };
@@ -34,7 +35,7 @@ struct inventory {
     uint32_t count, capacity;
 };
 
-// "scene", "include", "mesh", "materials", "image", "settings".
+// "scene", "include", "mesh", "materials", "image", "font", "settings".
 const char *inventory_role_name(enum inventory_role role);
 // false: no memory. A file that could not be found is not in it: the session's sink names it.
 bool inventory_make(struct session *session, struct inventory *out);

@@ -141,11 +141,11 @@ static void offer_for(struct completing *c, const struct schema_row *row) {
         offer(c, STR("true"), COMPLETION_ENUM_MEMBER, row->doc);
         offer(c, STR("false"), COMPLETION_ENUM_MEMBER, row->doc);
     }
-    if (row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_PATH)
+    if (row->file != SCHEMA_FILE_NONE)
         offer_files(c, row->file);
     if (row->kind == SCHEMA_LIST && schema_short_row(row->child) >= 0) {
         const struct schema_row *inner = &row->child->rows[schema_short_row(row->child)];
-        if (inner->kind == SCHEMA_TEXT && inner->text == SCHEMA_TEXT_PATH)
+        if (inner->file != SCHEMA_FILE_NONE)
             offer_files(c, inner->file);
     }
 }

@@ -95,7 +95,7 @@ static void note_users(void *context, const struct schema_element *schema, const
         const struct schema_row *row = &schema->rows[i];
         if (row->kind != SCHEMA_REFERENCE)
             continue;
-        const struct ir_material_ref *reference = schema_field_const(row, element);
+        const struct ir_reference *reference = schema_field_const(row, element);
         if (reference->name.len == 0 ||
             ir_walk_referent(users->session->scene, row, reference) != users->referent)
             continue;

@@ -39,7 +39,7 @@ static json_t *file_location(struct arena *arena, str path) {
 }
 
 static bool is_path(const struct located *at) {
-    return at->row && at->row->kind == SCHEMA_TEXT && at->row->text == SCHEMA_TEXT_PATH && at->in_value;
+    return at->row && at->in_value && ir_walk_path(at->row, at->element);
 }
 
 // The file that a path in the document names; the empty string if it is not found.
@@ -270,9 +270,8 @@ static str symbol_name(struct arena *arena, const struct schema_element *schema,
         return key;
     // List entries differ by the file that they name, else by their place in the list.
     for (uint32_t i = 0; i < schema->row_count; i++) {
-        const struct schema_row *row = &schema->rows[i];
-        const str *text = schema_field_const(row, element);
-        if (row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_PATH && text->len)
+        const str *text = ir_walk_path(&schema->rows[i], element);
+        if (text && text->len)
             return arena_format(arena, "%s %.*s", schema->name, STR_ARG(path_base(*text)));
     }
     return index < 0 ? str_from(schema->name) : arena_format(arena, "%s %d", schema->name, index + 1);

@@ -7,7 +7,7 @@ version=$2
 program=$3
 created=$(date -u -d "@${SOURCE_DATE_EPOCH:?the time of the release}" +%Y-%m-%dT%H:%M:%SZ)
 sum=$(sha256sum "$program" | cut -d' ' -f1)
-packages="libc6 libexpat1 libjansson4 libjpeg62-turbo libminizip1 libpng16-16 libxxhash-dev libyaml-0-2 zlib1g"
+packages="libbrotli1 libc6 libexpat1 libfreetype6 libjansson4 libjpeg62-turbo libminizip1 libpng16-16 libxxhash-dev libyaml-0-2 zlib1g"
 
 cat <<END
 {

@@ -10,7 +10,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 cmake --install "$build" --prefix "$work/$name" --strip >/dev/null
-for library in libc6 libexpat1 libjansson4 libjpeg62-turbo libminizip1 libpng16-16 libyaml-0-2 zlib1g; do
+for library in libbrotli1 libc6 libexpat1 libfreetype6 libjansson4 libjpeg62-turbo libminizip1 libpng16-16 libyaml-0-2 zlib1g; do
     [ -f "/usr/share/doc/$library/copyright" ] || continue
     mkdir -p "$work/$name/share/doc/glint-check/licences"
     cp "/usr/share/doc/$library/copyright" "$work/$name/share/doc/glint-check/licences/$library"

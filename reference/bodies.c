@@ -85,12 +85,26 @@ bool reference_make_primitive(const struct reference *r, const struct body *body
         return true;
     case SHAPE_TRIANGLES:
         break;
+    case SHAPE_CONE:
+        out->is_cone = true;
+        put(r, out->v[0], body->object_to_world.offset);
+        put(r, out->v[1], mat3_column(body->object_to_world.linear, 1));
+        put(r, out->v[2], (vec3){body->is->radius, body->is->radius_to, body->is->height});
+        return true;
     }
     scene_corners(body->is, &body->object_to_world, triangle, corners);
     for (int k = 0; k < 3; k++)
         put(r, out->v[k], corners[k]);
     vec3 u = vec3_sub(corners[1], corners[0]), v = vec3_sub(corners[2], corners[0]);
     return !vec3_is_zero(vec3_cross(u, v));
+}
+
+struct shape_cone reference_cone_of(const struct primitive *p) {
+    return (struct shape_cone){{p->v[0][0], p->v[0][1], p->v[0][2]},
+                               {p->v[1][0], p->v[1][1], p->v[1][2]},
+                               p->v[2][0],
+                               p->v[2][1],
+                               p->v[2][2]};
 }
 
 const struct primitive *reference_primitive(const struct reference *r, uint32_t index,

@@ -1,6 +1,7 @@
-// What a ray hits: boxes, triangles, spheres.
+// What a ray hits: boxes, triangles, spheres, cones.
 #include "reference/exact.h"
 #include "reference/reference_internal.h"
+#include "scene/shape.h"
 
 #include <assert.h>
 
@@ -140,6 +141,38 @@ static bool intersect_sphere(const struct reference *r, const struct ray *ray, c
     return false;
 }
 
+// ---- cones
+
+// A ray that left the cone outward never meets it again, because it is convex, and one that left it inward
+// always does.
+static bool intersect_cone(const struct reference *r, const struct ray *ray, const struct primitive *p,
+                           uint32_t index, struct intersection *out) {
+    const struct shape_cone cone = reference_cone_of(p);
+    const bool is_left = ray->start.cone == index, inward = is_left && ray->start.inward;
+    double t[2] = {0, 0};
+    bool side[2] = {true, true};
+    if (is_left && !inward)
+        return false;
+    if (!shape_cone_crossing(&cone, ray->start.at, ray->direction, t, side)) {
+        if (!inward)
+            return false;
+        t[1] = 0;
+        side[1] = true;
+    }
+    const int k = inward || !(t[0] > 0);
+    const bool along = vec3_dot(ray->direction, cone.axis) > 0;
+    if (!inward && !(t[k] > 0))
+        return false;
+    const double numbers = vec3_length(vec3_sub(ray->start.at, cone.from));
+    *out = (struct intersection){.t = fmax(t[k], 0),
+                                 .t_error = reference_gamma(r, 6) * numbers / vec3_length(ray->direction),
+                                 .b1 = side[k]             ? REFERENCE_SIDE
+                                       : along == (k == 1) ? REFERENCE_TO
+                                                           : REFERENCE_FROM,
+                                 .b2 = k == 0};
+    return true;
+}
+
 // ---- the tree
 
 enum {
@@ -215,6 +248,7 @@ static bool intersect_triangle(struct search *s, const struct primitive *p, stru
 static void test_primitive(struct search *s, uint32_t index, const struct primitive *p) {
     struct intersection hit = {0};
     bool is_hit = p->is_sphere ? intersect_sphere(s->r, s->ray, p, &hit)
+                  : p->is_cone ? intersect_cone(s->r, s->ray, p, index, &hit)
                   : s->r->input.test == REFERENCE_MOELLER_TRUMBORE
                       ? intersect_moeller_trumbore(s->ray, p, &hit)
                       : index != s->ray->start.left && intersect_triangle(s, p, &hit);
@@ -222,7 +256,7 @@ static void test_primitive(struct search *s, uint32_t index, const struct primit
     if (!is_hit || hit.t + hit.t_error >= s->ray->t_max)
         return;
     hit.primitive = index;
-    if (s->r->input.as_single && !p->is_sphere)
+    if (s->r->input.as_single && !p->is_sphere && !p->is_cone)
         hit.t_error = fmax(hit.t_error, exact_blur(p, s->ray->direction, REFERENCE_SINGLE));
     take(s, &hit);
 }

@@ -78,8 +78,8 @@ void reference_cross(const struct reference *r, const struct inside *before, str
         s->index_after = s->index;
         return;
     }
-    // For a sphere the side is certain. A mesh may have walls turned either way.
-    const bool leaves = reference_is_sphere(r, s->primitive) ? !s->enters : was_inside;
+    // For a sphere or a cone the side is certain. A mesh may have walls turned either way.
+    const bool leaves = reference_is_round(r, s->primitive) ? !s->enters : was_inside;
     struct inside within = was_inside ? *before : around;
     s->is_over = !was_inside && !enter(&within, s->body);
     s->after = leaves ? around : within;
@@ -106,7 +106,8 @@ struct approach {
     uint32_t count;
 };
 
-// Any face of a medium counts, even one that lets nothing through. For a sphere the side is certain.
+// Any face of a medium counts, even one that lets nothing through. For a sphere or a cone the side is
+// certain.
 static void cross_on_the_way(const struct reference *r, struct approach *on, const struct surface *s) {
     if (!r->bodies[s->body].is_medium)
         return;
@@ -114,7 +115,7 @@ static void cross_on_the_way(const struct reference *r, struct approach *on, con
     for (uint32_t i = 0; i < on->count; i++)
         if (on->bodies[i] != s->body)
             on->bodies[kept++] = on->bodies[i];
-    const bool leaves = r->primitives[s->primitive].is_sphere ? !s->enters : kept < on->count;
+    const bool leaves = reference_is_round(r, s->primitive) ? !s->enters : kept < on->count;
     if (!leaves)
         on->bodies[kept++] = s->body;
     on->count = kept;

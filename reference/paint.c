@@ -95,6 +95,19 @@ static struct place sphere_place(vec3 arm) {
     return (struct place){0.5 + atan2(arm.z, arm.x) / (2 * PI), 1 - atan2(around, arm.y) / PI};
 }
 
+// `at`: in the cone's own axes, from its beginning. An image's inscribed disc covers each end, as seen from
+// outside.
+static struct place cone_place(const struct scene_body *body, const struct surface *s, vec3 at) {
+    switch (reference_face(s)) {
+    case REFERENCE_FROM:
+        return (struct place){0.5 + at.x / (2 * body->radius), 0.5 + at.z / (2 * body->radius)};
+    case REFERENCE_TO:
+        return (struct place){0.5 + at.x / (2 * body->radius_to), 0.5 - at.z / (2 * body->radius_to)};
+    default:
+        return (struct place){0.5 + atan2(at.z, at.x) / (2 * PI), at.y / body->height};
+    }
+}
+
 // The place in a surface's coordinates (u, v).
 static struct place surface_place(const struct scene_body *body, const struct surface *s, const double b[3],
                                   vec3 arm) {
@@ -108,6 +121,8 @@ static struct place surface_place(const struct scene_body *body, const struct su
         scene_coordinates(body, s->triangle, at);
         return (struct place){b[0] * at[0].u + b[1] * at[1].u + b[2] * at[2].u,
                               b[0] * at[0].v + b[1] * at[1].v + b[2] * at[2].v};
+    case SCENE_CONE:
+        return cone_place(body, s, arm);
     }
     return sphere_place(arm);
 }
@@ -119,13 +134,18 @@ vec3 reference_checker_place(const struct scene_body *body, const struct surface
     switch (body->shape) {
     case SCENE_SPHERE:
         break;
+    case SCENE_CONE: // a disc shows the cells just inside it
+        arm.y += reference_face(s) == REFERENCE_FROM ? body->height * 0x1p-16
+                 : reference_face(s) == REFERENCE_TO ? body->height * -0x1p-16
+                                                     : 0;
+        break;
     case SCENE_PARALLELOGRAM:
         return (vec3){(s->triangle ? b[1] : b[1] + b[2]) * vec3_length(mat3_column(edges, 0)),
                       (s->triangle ? b[1] + b[2] : b[2]) * vec3_length(mat3_column(edges, 1)), 0};
     case SCENE_MESH:
         for (int k = 0; k < 3; k++)
             corners[k] = vec3_mul(body->mesh->positions[body->mesh->triangles[s->triangle].corners[k]], b[k]);
-        return vec3_add(vec3_add(corners[0], corners[1]), corners[2]);
+        return vec3_times(vec3_add(vec3_add(corners[0], corners[1]), corners[2]), body->cells);
     }
     return arm;
 }
@@ -194,6 +214,28 @@ static struct place change_on_sphere(const struct spot *at, vec3 axis) {
     return (struct place){u * less / (2 * step), v / (2 * step)};
 }
 
+// As on a sphere; the other coordinate, and both on a disc, change evenly.
+static struct place change_on_cone(const struct spot *spot, vec3 axis) {
+    const vec3 way = shape_into_frame(spot->body, axis);
+    const double size = vec3_length(way);
+    const bool is_side = reference_face(spot->s) == REFERENCE_SIDE;
+    struct spot before = *spot, after = *spot;
+    double around = hypot(spot->arm.x, spot->arm.z), step = spot->body->height / size;
+    if (is_side && !(around >= NEAREST_AXIS * spot->body->height)) {
+        before.arm.x = after.arm.x = around = NEAREST_AXIS * spot->body->height;
+        before.arm.z = after.arm.z = 0;
+    }
+    if (is_side)
+        step = STEP * around / size;
+    before.arm = vec3_sub(before.arm, vec3_mul(way, step));
+    after.arm = vec3_add(after.arm, vec3_mul(way, step));
+    const struct place a = place_at(&before), b = place_at(&after);
+    const double all = fabs(spot->s->width) / (2 * PI), less = is_side ? fmin(1, around / all) : 1;
+    const double u = b.u - a.u - (is_side ? floor(b.u - a.u + 0.5) : 0);
+    return (struct place){u * less / (2 * step),
+                          is_side ? way.y / spot->body->height : (b.v - a.v) / (2 * step)};
+}
+
 // How coordinates change along an axis.
 static struct place change(const struct spot *spot, vec3 axis) {
     struct ir_pair at[3];
@@ -202,6 +244,8 @@ static struct place change(const struct spot *spot, vec3 axis) {
         return (struct place){0, 0};
     if (spot->primitive->is_sphere)
         return change_on_sphere(spot, axis);
+    if (spot->primitive->is_cone)
+        return change_on_cone(spot, axis);
     weights_along(spot->primitive, axis, by);
     if (spot->body->shape != SCENE_MESH)
         return surface_place(spot->body, spot->s, by, spot->arm);
@@ -364,6 +408,8 @@ static double wave(double x, double w) {
 
 static vec3 cell_change(const struct spot *spot, vec3 axis, double size) {
     double by[3];
+    if (spot->primitive->is_cone)
+        return vec3_mul(shape_into_frame(spot->body, axis), 1 / size);
     if (!spot->primitive->is_sphere) {
         weights_along(spot->primitive, axis, by);
         return checker_cell(spot->body, spot->s, by, spot->arm, size);

@@ -13,7 +13,11 @@ struct start reference_leave(const struct reference *r, const struct surface *s,
         at.y = nextafter(at.y, shift.y > 0 ? INFINITY : -INFINITY);
     if (shift.z != 0)
         at.z = nextafter(at.z, shift.z > 0 ? INFINITY : -INFINITY);
-    if (reference_is_sphere(r, s->primitive))
-        return reference_start(at);
-    return (struct start){at, s->primitive, s->b1, s->b2};
+    if (reference_is_round(r, s->primitive)) {
+        struct start start = reference_start(at);
+        start.cone = reference_is_cone(r, s->primitive) ? s->primitive : NO_PRIMITIVE;
+        start.inward = (vec3_dot(side, s->geometric) > 0) != s->enters;
+        return start;
+    }
+    return (struct start){at, s->primitive, s->b1, s->b2, NO_PRIMITIVE, false};
 }

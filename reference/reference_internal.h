@@ -29,12 +29,13 @@ static inline double reference_brightest(vec3 color) {
     return fmax(color.x, fmax(color.y, color.z));
 }
 
-// A triangle, or a sphere: then its centre is v[0] and its radius v[1][0]. In a tree also an instance, which
-// is a body: `triangle` is its number.
+// A triangle; or a sphere: then its centre is v[0] and its radius v[1][0]; or a cone: then v[0] is where it
+// begins, v[1] its unit axis, and v[2] its radii and its height. In a tree also an instance, which is a body:
+// `triangle` is its number.
 struct primitive {
     double v[3][3];
     uint32_t body, triangle;
-    bool is_sphere, is_instance;
+    bool is_sphere, is_cone, is_instance;
 };
 
 #define NO_INSTANCE UINT32_MAX
@@ -159,6 +160,15 @@ const struct primitive *reference_primitive(const struct reference *r, uint32_t 
 static inline bool reference_is_sphere(const struct reference *r, uint32_t index) {
     return index < r->first_shared && r->primitives[index].is_sphere;
 }
+static inline bool reference_is_cone(const struct reference *r, uint32_t index) {
+    return index < r->first_shared && r->primitives[index].is_cone;
+}
+static inline bool reference_is_round(const struct reference *r, uint32_t index) {
+    return reference_is_sphere(r, index) || reference_is_cone(r, index);
+}
+// A primitive that is a cone.
+struct shape_cone;
+struct shape_cone reference_cone_of(const struct primitive *p);
 
 // ---- instances.c
 
@@ -186,10 +196,12 @@ struct start {
     uint32_t
         left; // the triangle that the ray leaves, which it cannot hit; NO_PRIMITIVE: none, and `at` is exact
     double b1, b2; // the exact place on that triangle
+    uint32_t cone; // the cone that the ray leaves; NO_PRIMITIVE: none
+    bool inward;   // into it
 };
 
 static inline struct start reference_start(vec3 at) {
-    return (struct start){.at = at, .left = NO_PRIMITIVE};
+    return (struct start){.at = at, .left = NO_PRIMITIVE, .cone = NO_PRIMITIVE};
 }
 
 // How wide a pixel is along a ray: its width at the start and its growth per length. Where the width is
@@ -245,6 +257,16 @@ struct surface {
     bool passes;         // it goes on unseen: nothing changes here
     bool is_over;        // it would be inside more media than there may be
 };
+
+// The face of a cone that was hit: b1, which as_single has rounded.
+enum reference_face {
+    REFERENCE_SIDE,
+    REFERENCE_FROM,
+    REFERENCE_TO,
+};
+static inline enum reference_face reference_face(const struct surface *s) {
+    return (enum reference_face)(s->b1 + 0.5);
+}
 
 void reference_surface(const struct reference *r, const struct ray *ray, const struct intersection *hit,
                        struct surface *out);

@@ -98,6 +98,43 @@ static void sphere_surface(const struct reference *r, const struct ray *ray, con
     s->bend = (s->enters ? 1 : -1) / p->v[1][0];
 }
 
+// `arm`: in the cone's own axes, from its beginning.
+static void cone_surface(const struct reference *r, const struct ray *ray, const struct body *body,
+                         const struct primitive *p, struct surface *s, vec3 *arm) {
+    const struct shape_cone cone = reference_cone_of(p);
+    const enum reference_face face = reference_face(s);
+    const vec3 at = vec3_add(vec3_sub(ray->start.at, cone.from), vec3_mul(ray->direction, s->distance));
+    const vec3 found = reference_rounded3(r, at, vec3_max_abs(at));
+    const double y = vec3_dot(found, cone.axis);
+    const double height = face == REFERENCE_FROM ? 0
+                          : face == REFERENCE_TO ? cone.height
+                                                 : fmin(fmax(y, 0), cone.height);
+    const vec3 across = vec3_sub(found, vec3_mul(cone.axis, y)), away = vec3_unit(across);
+    const double rise = cone.radius_to - cone.radius, radius = cone.radius + rise * (height / cone.height);
+    vec3 outward = face == REFERENCE_FROM ? vec3_neg(cone.axis) : cone.axis;
+    // The side is at right angles to (rise, height) in the half-plane of the axis and the place.
+    if (face == REFERENCE_SIDE)
+        outward = vec3_unit(vec3_sub(vec3_mul(away, cone.height), vec3_mul(cone.axis, rise)));
+    outward = reference_rounded3(r, outward, 1);
+    const double reach = face == REFERENCE_SIDE ? radius : fmin(vec3_length(across), radius);
+    const vec3 place = vec3_add(vec3_mul(cone.axis, height), vec3_mul(away, reach));
+    s->point = reference_rounded3(r, vec3_add(cone.from, place), 0);
+    const double error = (cone.height + radius) * reference_gamma(r, 6);
+    s->error = vec3_add((vec3){error, error, error}, vec3_mul(vec3_abs(s->point), reference_gamma(r, 1)));
+    // By the end of the way inside, not by the normal, which rounding may have turned away from a grazing
+    // ray.
+    s->enters = s->b2 > 0.5;
+    s->geometric = s->enters ? outward : vec3_neg(outward);
+    const vec3 unit = vec3_unit(ray->direction);
+    const double along = vec3_dot(unit, s->geometric);
+    if (along > 0)
+        s->geometric = vec3_unit(vec3_sub(s->geometric, vec3_mul(unit, along)));
+    s->shading = s->geometric;
+    if (face == REFERENCE_SIDE && radius > 0)
+        s->bend = (s->enters ? 0.5 : -0.5) * cone.height / (radius * hypot(cone.height, rise));
+    *arm = shape_into_frame(body->is, place);
+}
+
 // How fast the normals turn from corner to corner, the mean over the edges (Akenine-Moeller et al. 2021,
 // section 3).
 static double bend_of(const struct body *body, const struct surface *s, const vec3 corners[3]) {
@@ -153,6 +190,8 @@ void reference_surface(const struct reference *r, const struct ray *ray, const s
                             .b2 = b[2]};
     if (p->is_sphere)
         sphere_surface(r, ray, p, out, &arm);
+    else if (p->is_cone)
+        cone_surface(r, ray, body, p, out, &arm);
     else
         triangle_surface(r, body, ray, p, b, out);
     take_material(r, body->is, b, arm, out);

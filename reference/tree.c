@@ -70,6 +70,21 @@ static void put_box(struct item *item, double v[3][3], bool is_sphere) {
     }
 }
 
+// Around its two discs, each widened by its whole radius along every axis.
+static void put_cone_box(struct item *item, double v[3][3]) {
+    double most = 0;
+    for (int a = 0; a < 3; a++) {
+        const double from = v[0][a], to = from + v[1][a] * v[2][2];
+        item->box.lower[a] = fmin(from - v[2][0], to - v[2][1]);
+        item->box.upper[a] = fmax(from + v[2][0], to + v[2][1]);
+        most = fmax(most, fmax(fabs(item->box.lower[a]), fabs(item->box.upper[a])));
+    }
+    for (int a = 0; a < 3; a++) {
+        item->box.lower[a] -= most * BOX_PAD;
+        item->box.upper[a] += most * BOX_PAD;
+    }
+}
+
 // The last body that begins no later: bodies without primitives come before the one whose number they share.
 static const struct body *body_of(const struct reference *r, uint32_t number) {
     uint32_t low = 0;
@@ -105,7 +120,10 @@ static void make_items(void *context, size_t begin, size_t end) {
             continue;
         }
         b->items[i].is_empty = !reference_make_primitive(b->r, body, (uint32_t)i - body->first_primitive, &p);
-        put_box(&b->items[i], p.v, p.is_sphere);
+        if (p.is_cone)
+            put_cone_box(&b->items[i], p.v);
+        else
+            put_box(&b->items[i], p.v, p.is_sphere);
     }
 }
 

@@ -3,6 +3,7 @@
 #include "core/limits.h"
 #include "diag/codes/limit.h"
 #include "diag/codes/rule.h"
+#include "grammar/ir.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 #include "scene/mesh_use.h"
@@ -25,17 +26,29 @@ struct building {
     uint32_t *material; // the next place for a body's one material
 };
 
+// A box whose edges are a whole number of cells has its faces where cells meet. A checker counts by edges
+// that are shorter by this share, so that a face shows the cells behind it.
+#define CELLS_WITHIN 0x1p-16
+
 static struct scene_body *add(struct building *b, const struct schema_element *element, uint32_t index,
                               const struct ir_head *head, str name) {
     struct scene_body *body = &b->scene->bodies[b->scene->body_count++];
-    *body = (struct scene_body){.element = element, .index = index, .head = head, .name = name};
+    *body = (struct scene_body){
+        .element = element, .index = index, .head = head, .name = name, .cells = {1, 1, 1}};
     return body;
 }
 
-static void take_material(struct building *b, struct scene_body *body, const struct ir_material_ref *ref) {
+static void take_material(struct building *b, struct scene_body *body, const struct ir_reference *ref) {
     *b->material = assets_material(b->scene->ir, ref);
     body->materials = b->material++;
     body->group_count = 1;
+}
+
+static void take_mesh(struct scene_body *body, const struct mesh *mesh) {
+    body->mesh = mesh;
+    body->group_count = mesh->group_count;
+    body->triangle_count = mesh->triangle_count;
+    body->closed = mesh->closed;
 }
 
 affine3 scene_parallelogram(vec3 corner, vec3 u, vec3 v) {
@@ -61,6 +74,39 @@ static void add_rectangle(struct building *b, uint32_t i) {
     scene_body_place(body, scene_parallelogram(ir->corner, ir->edge_u, ir->edge_v), 0);
 }
 
+static void add_box(struct building *b, uint32_t i) {
+    const struct ir_box *ir = &b->scene->ir->boxes.items[i];
+    struct scene_body *body = add(b, &SCHEMA_BOX, i, &ir->head, ir->name);
+    body->shape = SCENE_MESH;
+    body->cells = vec3_mul(ir->size, 1 - CELLS_WITHIN);
+    take_material(b, body, &ir->material);
+    take_mesh(body, scene_box_mesh());
+    scene_body_place(body, transform_of(ir->size, ir->rotation, ir->center), 0);
+}
+
+static void add_frustum(struct building *b, struct scene_body *body, vec3 from, vec3 to, double radius_from,
+                        double radius_to, const struct ir_reference *material) {
+    const vec3 axis = vec3_sub(to, from);
+    body->shape = SCENE_CONE;
+    body->closed = true;
+    body->radius_to = radius_to;
+    body->height = vec3_length(axis);
+    take_material(b, body, material);
+    scene_body_place(body, (affine3){scene_cone_frame(axis), from}, radius_from);
+}
+
+static void add_cylinder(struct building *b, uint32_t i) {
+    const struct ir_cylinder *ir = &b->scene->ir->cylinders.items[i];
+    struct scene_body *body = add(b, &SCHEMA_CYLINDER, i, &ir->head, ir->name);
+    add_frustum(b, body, ir->from, ir->to, ir->radius, ir->radius, &ir->material);
+}
+
+static void add_cone(struct building *b, uint32_t i) {
+    const struct ir_cone *ir = &b->scene->ir->cones.items[i];
+    struct scene_body *body = add(b, &SCHEMA_CONE, i, &ir->head, ir->name);
+    add_frustum(b, body, ir->from, ir->to, ir->radius_from, ir->radius_to, &ir->material);
+}
+
 static void add_model(struct building *b, uint32_t i) {
     const struct ir_model *ir = &b->scene->ir->models.items[i];
     const struct assets *assets = b->scene->assets;
@@ -68,13 +114,10 @@ static void add_model(struct building *b, uint32_t i) {
     body->shape = SCENE_MESH;
     body->smooth = ir->smooth;
     if (i < assets->model_count && assets->models[i].mesh) {
-        body->mesh = assets->models[i].mesh;
         body->materials = assets->models[i].group_material;
-        body->group_count = body->mesh->group_count;
-        body->triangle_count = body->mesh->triangle_count;
-        body->closed = body->mesh->closed;
+        take_mesh(body, assets->models[i].mesh);
     }
-    scene_body_place(body, transform_of_model(ir), 0);
+    scene_body_place(body, transform_of(ir->scale, ir->rotation, ir->translation), 0);
 }
 
 // The kinds of bodies, in the order in which bodies are numbered.
@@ -82,9 +125,8 @@ static const struct kind {
     const struct schema_element *element;
     void (*add)(struct building *b, uint32_t i);
 } KINDS[] = {
-    {&SCHEMA_SPHERE, add_sphere},
-    {&SCHEMA_RECTANGLE, add_rectangle},
-    {&SCHEMA_MODEL, add_model},
+    {&SCHEMA_SPHERE, add_sphere},     {&SCHEMA_RECTANGLE, add_rectangle}, {&SCHEMA_BOX, add_box},
+    {&SCHEMA_CYLINDER, add_cylinder}, {&SCHEMA_CONE, add_cone},           {&SCHEMA_MODEL, add_model},
 };
 
 enum {

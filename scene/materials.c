@@ -1,5 +1,6 @@
 // Colours, materials and the background.
 #include "core/srgb.h"
+#include "grammar/ir.h"
 #include "grammar/ir_features.h"
 #include "scene/scene_internal.h"
 #include "scene/shape.h"

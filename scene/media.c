@@ -271,6 +271,17 @@ static bool is_in_sphere(const struct scene_body *body, vec3 point, double *way)
     return true;
 }
 
+static bool is_in_cone(const struct scene_body *body, vec3 point, double *way) {
+    const struct shape_cone cone = shape_cone_of(body);
+    double t[2];
+    bool side[2];
+    if (!(shape_cone_distance(&cone, point) < 0) ||
+        !shape_cone_crossing(&cone, point, scene_inside_direction(), t, side))
+        return false;
+    *way = fmax(t[1], 0);
+    return true;
+}
+
 static bool is_in_box(const struct scene_body *body, vec3 p) {
     return p.x >= body->lower.x && p.x <= body->upper.x && p.y >= body->lower.y && p.y <= body->upper.y &&
            p.z >= body->lower.z && p.z <= body->upper.z;
@@ -306,6 +317,8 @@ static bool holds(const struct scene_body *body, vec3 point, double *way) {
         break;
     case SCENE_MESH:
         return is_in_mesh(body, point, way);
+    case SCENE_CONE:
+        return is_in_cone(body, point, way);
     }
     return false;
 }

@@ -28,6 +28,7 @@ enum scene_shape {
     SCENE_PARALLELOGRAM, // two triangles: corner, corner + u, corner + u + v; corner, corner + u + v, corner
                          // + v
     SCENE_MESH,
+    SCENE_CONE, // whole or cut off, also with equal radii: a cylinder
 };
 
 // In IR order (ir.h). Models whose mesh could not be loaded are bodies without triangles. What the tracer's
@@ -41,9 +42,12 @@ struct scene_body {
     str name; // empty: none
     enum scene_shape shape;
     // A sphere: its centre. A parallelogram: columns u, v and 0, and the corner as offset, so that its object
-    // space is the unit square. A mesh: T·R·S.
+    // space is the unit square. A mesh: T·R·S. A cone: its frame (scene_cone_frame), and 'from' as offset.
     affine3 object_to_world;
-    double radius;             // of a sphere
+    double radius;            // of a sphere; of a cone that at 'from'
+    double radius_to, height; // of a cone
+    vec3 cells; // lengths by which a checker counts its cells, per unit of object space: of a box its edges,
+                // nearly; else 1
     const struct mesh *mesh;   // NULL: another shape, or not loaded
     const uint32_t *materials; // by group: indices into scene.materials
     uint32_t group_count;      // 1 except for meshes
@@ -140,7 +144,10 @@ bool scene_is_body(const struct schema_element *element);
 uint32_t scene_body_material(const struct scene_body *body, uint32_t triangle);
 // The object_to_world of a parallelogram.
 affine3 scene_parallelogram(vec3 corner, vec3 edge_u, vec3 edge_v);
-// Moves a body: object_to_world and, of a sphere, the radius; its box follows.
+// The own axes of a cone as columns: y along its axis; x as near to the scene's x as a right angle allows,
+// or, where the axis runs most along x, to the scene's y. So an axis along y leaves them as the scene's.
+mat3 scene_cone_frame(vec3 axis);
+// Moves a body: object_to_world and, of a sphere or a cone, the radius; its box follows.
 void scene_body_place(struct scene_body *body, affine3 object_to_world, double radius);
 // The corners of a triangle in file order, through a map used in place of object_to_world: often
 // object_to_world relative to an origin (transform_relative), so the origin is subtracted before anything is

@@ -7,6 +7,9 @@
 // Fills the bodies; the rest of the scene is complete.
 void scene_build_bodies(struct scene *scene, struct arena *arena);
 
+// The mesh of all boxes: a cube of edge 1 around the origin. Its path is empty.
+const struct mesh *scene_box_mesh(void);
+
 // Fills the images of all materials.
 void scene_build_textures(struct scene *scene, struct arena *arena);
 

@@ -13,6 +13,7 @@
 enum shape_items {
     SHAPE_BALL, // it is one sphere
     SHAPE_TRIANGLES,
+    SHAPE_CONE, // it is one cone
 };
 
 struct shape_traits {
@@ -31,9 +32,26 @@ uint32_t shape_item_count(const struct scene_body *body);
 // Whether two bodies have the same surface, to the bit: shape, place and size. What it shows is not compared.
 bool shape_is_same(const struct scene_body *a, const struct scene_body *b);
 // What a camera focuses on, and where a light in the body sits: a sphere's centre, a parallelogram's middle,
-// or the middle of the box around a mesh.
+// the middle of a cone's axis, or of the box around a mesh.
 vec3 shape_middle(const struct scene_body *body);
 // Of a closed body; 0 of another.
 double shape_volume(const struct scene_body *body);
+
+// ---- cones
+
+// A way in a cone's own axes.
+vec3 shape_into_frame(const struct scene_body *cone, vec3 way);
+
+struct shape_cone {
+    vec3 from, axis; // unit
+    double radius, radius_to, height;
+};
+struct shape_cone shape_cone_of(const struct scene_body *body);
+// How far a point is from the surface; negative inside.
+double shape_cone_distance(const struct shape_cone *cone, vec3 point);
+// Where a line runs inside, in multiples of its direction, which need not be a unit vector; *side: whether it
+// enters, and leaves, through the side, else through a disc. false: nowhere.
+bool shape_cone_crossing(const struct shape_cone *cone, vec3 point, vec3 direction, double t[2],
+                         bool side[2]);
 
 #endif

@@ -1,11 +1,11 @@
 #include "scene/transform.h"
 
-affine3 transform_of_model(const struct ir_model *model) {
-    affine3 map = {mat3_rotation(model->rotation), model->translation};
-    double scale[3] = {model->scale.x, model->scale.y, model->scale.z};
+affine3 transform_of(vec3 scale, vec3 rotation, vec3 translation) {
+    affine3 map = {mat3_rotation(rotation), translation};
+    const double by[3] = {scale.x, scale.y, scale.z};
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            map.linear.m[i][j] *= scale[j];
+            map.linear.m[i][j] *= by[j];
     return map;
 }
 

@@ -5,10 +5,9 @@
 #define GLINT_SCENE_TRANSFORM_H
 
 #include "core/vec3.h"
-#include "grammar/ir.h"
 
-// The affine map of a model, T·Rz·Ry·Rx·S.
-affine3 transform_of_model(const struct ir_model *model);
+// Scaled, then turned about x, y and z (degrees), then moved: T·Rz·Ry·Rx·S.
+affine3 transform_of(vec3 scale, vec3 rotation, vec3 translation);
 // The inverse of any map whose determinant is not 0; its offset, too.
 affine3 transform_inverse(affine3 map);
 // What turns normals: the inverse transpose times a positive number.

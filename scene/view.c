@@ -190,6 +190,7 @@ static bool is_surface(const struct scene_body *body, const struct view_light *l
         return light->extent == VIEW_PANEL &&
                are_edges(light, mat3_column(*edges, 0), mat3_column(*edges, 1));
     case SCENE_MESH: // no light is one
+    case SCENE_CONE:
         break;
     }
     return false;

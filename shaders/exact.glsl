@@ -103,6 +103,8 @@ exact_search begin_exact(ray_start start, exact_aim aim, hit_record hit) {
     search.least = hit.t;
     search.blur = 0.0;
     search.normal = REAL3(0.0);
+    if (HAS_CONES)
+        search.blur = disc_error(hit, start.at, direction, search.normal);
     if (start.left != NO_ITEM) {
         triangle_record left = load_triangle(start.left);
         search.left_body = left.body;
@@ -249,6 +251,8 @@ bool needs_search(exact_search search, ray_doubts doubts, hit_record hit) {
 // EXACT_ITERATIONS, which a ray reaches where a scene is so far away that most of it is the same but for rounding.
 bool retrace_triangles(ray_start start, exact_aim aim, ray_doubts doubts, bool any, inout hit_record hit,
                        inout uint iterations) {
+    if (HAS_CONES && (start.left & ITEM_SPHERE) != 0u)
+        start.left = NO_ITEM;
     if (settle(start, aim.direction, doubts))
         return false;
     exact_search search = begin_exact(start, aim, hit);

@@ -42,8 +42,9 @@
     ROW(CAMERA, camera)                                                                                      \
     ROW(TEXTURES, textures)                                                                                  \
     ROW(SKY_LIGHT, sky_light)                                                                                \
-    ROW(SEEN_LIGHT, seen_light)
-#define FEATURE_COUNT 33
+    ROW(SEEN_LIGHT, seen_light)                                                                              \
+    ROW(CONES, cones)
+#define FEATURE_COUNT 34
 
 #ifdef __STDC_VERSION__
 #include <stdint.h>
@@ -87,6 +88,7 @@
 #define FEATURE_TEXTURES         FEATURE_FIRST(30) /* images on surfaces */
 #define FEATURE_SKY_LIGHT        FEATURE_FIRST(31) /* the background lights */
 #define FEATURE_SEEN_LIGHT       FEATURE_SECOND(0) /* lights that rays see */
+#define FEATURE_CONES            FEATURE_SECOND(1) /* cylinders and cones */
 /* With any of them something with extent is sampled: rays have keys (light/points.h). */
 #define FEATURE_POINTS                                                                                       \
     (FEATURE_SOFT_LIGHT | FEATURE_OCCLUSION | FEATURE_ROUGHNESS | FEATURE_CAMERA | FEATURE_SKY_LIGHT)

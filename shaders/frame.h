@@ -115,8 +115,8 @@
 #define TILE_PIXELS 64
 
 /* Output: one word per path: the sum of the samples' r g b, and a fault. Fault: the kind in the two top bits,
-   below it the number of what was hit last: spheres by body, then triangles from sphere_count on; all ones if
-   nothing was hit. Samples traced at once have one word each; resolve.comp adds them up. */
+   below it the number of what was hit last: spheres by body, then triangles and cones from sphere_count on;
+   all ones if nothing was hit. Samples traced at once have one word each; resolve.comp adds them up. */
 #define FAULT_NUMBER 0x3fffffffu
 #define FAULT_NESTED                                                                                         \
     0x3ffffffeu /* with FAULT_NOT_FINITE: a ray would be inside more than MEDIA_MOST media                   \

@@ -49,8 +49,9 @@
 #define BOX_FAR_SCALE 1.00000095367431640625 /* 1 + 16 u */
 
 /* Leaf items of the triangle tree: `number` counts triangles (bodies in order, triangles in file order;
-   spheres come before and are not counted); `shade` holds the material in its low 24 bits, and flags. Leaf
-   items of the sphere tree have TRIANGLE_SOLID always. */
+   spheres come before and are not counted; a cone counts as one); `shade` holds the material in its low 24
+   bits, and flags. Leaf items of the sphere tree, which are spheres and, if the scene has any, cones, have
+   TRIANGLE_SOLID always. */
 #define TRIANGLE_SMOOTH       0x01000000u
 #define TRIANGLE_SOLID        0x02000000u /* body is closed: refraction enters and leaves; else a thin pane */
 #define TRIANGLE_HALF         0x04000000u /* half of a parallelogram */
@@ -59,6 +60,11 @@
 #define TRIANGLE_TURNED       0x20000000u /* v1 and v2 are exchanged against the file's order */
 #define TRIANGLE_CORNER_SHIFT 30          /* the corner, 0..2, whose edges give the best normal */
 #define TRIANGLE_MATERIAL     0x00ffffffu
+/* Flags of cones, in place of others. */
+#define FRUSTUM_SHADE  0x08000000u /* it is one; else a sphere */
+#define FRUSTUM_TURNED 0x01000000u /* its base is the end that the scene calls 'to' */
+/* How far below a disc its checker's cells are looked up, as a fraction of the height. */
+#define CONE_INSET 1.52587890625e-5 /* 2^-16 */
 /* How much wider a triangle's box is, as a fraction of its largest coordinate; in double precision 2^-47. */
 #define TRIANGLE_BOX_PAD 3.814697265625e-6 /* 2^-18 */
 /* How much shorter the edges of another corner than the first must be, as a product of both, to be preferred.

@@ -17,6 +17,7 @@
 #include "wide.glsl"
 #include "triangles.glsl"
 #include "exact.glsl"
+#include "cones.glsl"
 #include "spheres.glsl"
 #include "surface.glsl"
 #include "ray_offset.glsl"

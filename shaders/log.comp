@@ -14,6 +14,7 @@
 #include "wide.glsl"
 #include "triangles.glsl"
 #include "exact.glsl"
+#include "cones.glsl"
 #include "spheres.glsl"
 #include "surface.glsl"
 #include "ray_offset.glsl"
@@ -79,7 +80,7 @@ uint material_of(hit_record hit) {
     uint shade = 0u;
     if (HAS_TRIANGLES && !sphere)
         shade = load_triangle(hit.item).shade;
-    if (HAS_SPHERES && sphere)
+    if (HAS_ROUND && sphere)
         shade = load_sphere(hit.item & ~ITEM_SPHERE).shade;
     return shade & TRIANGLE_MATERIAL;
 }

@@ -14,15 +14,20 @@ REAL3 ray_offset(REAL3 point, REAL3 error, REAL3 side) {
     return REAL3(next_real(moved.x, shift.x), next_real(moved.y, shift.y), next_real(moved.z, shift.z));
 }
 
-// The start of a ray that leaves the surface of a hit on the side of `side`. A ray that leaves a sphere starts exactly
-// at the moved point; one that leaves a triangle starts on the triangle, and is moved only for the first tests.
+// The start of a ray that leaves the surface of a hit on the side of `side`. A ray that leaves a sphere or a cone starts
+// exactly at the moved point; one that leaves a triangle starts on the triangle, and is moved only for the first tests.
 ray_start leave(surface s, hit_record hit, REAL3 side) {
     REAL3 at = ray_offset(s.point, s.error, side);
 #ifdef ALTERNATIVES
     if (alternative_moves())
         return exact_start(at);
 #endif
-    if (!HAS_TRIANGLES || (HAS_SPHERES && (hit.item & ITEM_SPHERE) != 0u))
+    bool is_round = !HAS_TRIANGLES || (HAS_ROUND && (hit.item & ITEM_SPHERE) != 0u);
+    if (HAS_CONES && is_round) {
+        bool outward = (dot3(side, s.geometric) > 0.0) == s.enters;
+        return ray_start(at, 0.0, hit.item, outward ? LEAVES_OUTWARD : LEAVES_INWARD, 0.0);
+    }
+    if (is_round)
         return exact_start(at);
     // The error, the displacement of at most sqrt(3) times that, and the rounding of both.
     return ray_start(at, 4.25 * largest3(s.error), hit.item, hit.b1, hit.b2);

@@ -64,6 +64,7 @@ struct light_record { MEMBERS(LIGHT_FIELDS) };
 struct paint_record { MEMBERS(PAINT_FIELDS) };
 struct extent_record { MEMBERS(EXTENT_FIELDS) };
 struct seen_record { MEMBERS(SEEN_FIELDS) };
+struct frustum_record { MEMBERS(FRUSTUM_FIELDS) };
 struct normal_record { MEMBERS(NORMAL_FIELDS) };
 #define SOURCE triangle_nodes
 DEFINE_LOADER(node_record, load_triangle_node, NODE_WORDS, NODE_FIELDS)
@@ -78,7 +79,10 @@ DEFINE_LOADER(outline_record, load_outline, WORDS_OF(TRIANGLE), OUTLINE_FIELDS)
 #undef SOURCE
 #endif
 #define SOURCE spheres
-DEFINE_LOADER(sphere_record, load_sphere, WORDS_OF(SPHERE), SPHERE_FIELDS)
+const uint SPHERE_STRIDE = HAS_CONES ? WORDS_OF(FRUSTUM) : WORDS_OF(SPHERE);
+DEFINE_LOADER(sphere_record, load_sphere, SPHERE_STRIDE, SPHERE_FIELDS)
+DEFINE_LOADER(frustum_record, load_frustum, WORDS_OF(FRUSTUM), FRUSTUM_FIELDS)
+bool is_frustum(uint item) { return (load_sphere(item).shade & FRUSTUM_SHADE) != 0u; }
 #undef SOURCE
 #define SOURCE bodies
 DEFINE_LOADER(body_record, load_body, WORDS_OF(BODY), BODY_FIELDS)

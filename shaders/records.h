@@ -124,6 +124,20 @@
     UINT(body, 1, x, 2, x)                                                                                   \
     UINT(shade, 1, y, 2, y) /* material and flags */
 
+/* A cylinder or cone, and, in scenes that have one, also a sphere, whose record this begins with. The base is
+   the narrower of its two ends: so no number in its radius cancels another. */
+#define FRUSTUM_WORDS   3
+#define FRUSTUM64_WORDS 6
+#define FRUSTUM_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                     \
+    REAL3(base, 0, 0)                                                                                        \
+    REAL(radius, 0, w, 1, zw) /* at the base */                                                              \
+    UINT(body, 1, x, 2, x)                                                                                   \
+    UINT(shade, 1, y, 2, y)  /* material and flags */                                                        \
+    UINT(number, 1, z, 2, z) /* as of a triangle: which of two at the same distance is seen */               \
+    REAL(slope, 1, w, 5, xy) /* by how much the radius grows along the axis; not negative */                 \
+    REAL3(axis, 2, 3)        /* unit, away from the base */                                                  \
+    REAL(height, 2, w, 4, zw)
+
 #define NORMAL_WORDS                                    1
 #define NORMAL64_WORDS                                  2
 #define NORMAL_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT) REAL3(unit, 0, 0)

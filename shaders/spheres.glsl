@@ -1,4 +1,4 @@
-// Finds the closest or any sphere along a ray; a tree of its own, compiled in only if a scene has spheres.
+// Finds the closest or any sphere or cone along a ray; a tree of its own, compiled in only if a scene has any.
 //
 // Haines, Guenther, Akenine-Moeller 2019, "Precision Improvements for Ray/Sphere Intersection" (Ray Tracing
 // Gems, chapter 7), with the start of the ray placed by its error: where |o - c|^2 - r^2 is within its
@@ -33,12 +33,22 @@ void test_sphere(uint item, bool there, REAL3 origin, REAL3 direction, inout hit
         hit.t = t;
         hit.item = item | ITEM_SPHERE;
         hit.number = number;
+        if (HAS_CONES)
+            hit.b1 = 0.0;
     }
 }
 
+// An item of the tree.
+void test_round(uint item, bool there, ray_start start, REAL3 direction, inout hit_record hit) {
+    if (HAS_CONES && (!HAS_SPHERES || is_frustum(item)))
+        test_frustum(item, there, start, direction, hit);
+    else
+        test_sphere(item, there, start.at, direction, hit);
+}
+
 // As trace_triangles.
-void trace_spheres(REAL3 origin, REAL3 direction, bool any, inout hit_record hit, inout uint iterations) {
-    tree_ray ray = make_tree_ray(origin, direction);
+void trace_spheres(ray_start start, REAL3 direction, bool any, inout hit_record hit, inout uint iterations) {
+    tree_ray ray = make_tree_ray(start.at, direction);
     STACK(SPHERE_STACK)
     uvec2 group = root_group();
     bool more = true;
@@ -61,7 +71,7 @@ void trace_spheres(REAL3 origin, REAL3 direction, bool any, inout hit_record hit
             items ^= bit;
             // A power of two up to 2^23 is its own exponent.
             uint item = node.first_item + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
-            test_sphere(item, there, origin, direction, hit);
+            test_round(item, there, start, direction, hit);
             if (any && hit.item != NO_ITEM) {
                 items = 0u;
                 more = false;

@@ -190,12 +190,56 @@ void sphere_surface(hit_record hit, REAL3 origin, REAL3 direction, inout surface
     read_material(sphere.shade, sphere.body, REAL2(0.0), spot, s);
 }
 
+// A place is moved back onto the face, as with a sphere.
+void frustum_surface(hit_record hit, REAL3 origin, REAL3 direction, inout surface s) {
+    frustum_record body = load_frustum(hit.item & ~ITEM_SPHERE);
+    bool is_side = hit.b1 == FACE_SIDE, is_top = hit.b1 == FACE_TOP;
+    REAL3 f = origin - body.base + direction * hit.t;
+    REAL above = dot3(f, body.axis);
+    REAL3 arm = f - body.axis * above;
+    REAL away = sqrt(dot3(arm, arm));
+    REAL height = is_side ? clamp(above, 0.0, body.height) : is_top ? body.height : REAL(0.0);
+    REAL radius = body.radius + body.slope * height;
+    // On the axis only the tip of a cone is hit, or rounding decides: any direction will do.
+    REAL3 around = away > 0.0 ? arm / away : REAL3(0.0);
+    REAL3 outward = is_top ? body.axis : -body.axis;
+    if (is_side && (away > 0.0 || body.slope > 0.0))
+        outward = unit3(around - body.axis * body.slope);
+    arm = around * (is_side ? radius : min(away, radius));
+    s.point = body.base + body.axis * height + arm;
+    s.error = REAL3((height + radius) * GAMMA_6) + abs(s.point) * GAMMA_1;
+    s.enters = hit.b2 > 0.0;
+    // A grazing ray may seem to come from the other side, because rounding turned the normal: back to a right angle.
+    REAL along = dot3(outward, direction);
+    if ((along > 0.0) == s.enters)
+        outward = unit3(outward - direction * (along / dot3(direction, direction)));
+    s.geometric = s.enters ? outward : -outward;
+    s.shading = s.geometric;
+    s.solid = true;
+    paint_spot spot = begin_spot(hit.t, direction, s);
+    // The mean of what it is around the axis and along it.
+    if (HAS_FOOTPRINT && is_side && radius > 0.0)
+        s.bend = (s.enters ? 0.5 : -0.5) / (radius * sqrt(1.0 + body.slope * body.slope));
+    if (HAS_PAINT && wants(FEATURE_TEXTURES | FEATURE_FOOTPRINT)) {
+        frustum_map map = frustum_map(arm, radius, (body.shade & FRUSTUM_TURNED) != 0u, body.height, height);
+        frustum_spot(load_body(body.body), map, hit.b1, s.width, spot);
+    }
+    // A disc, which often lies between two layers of a checker's cells, shows those of the layer inside.
+    REAL3 point = s.point;
+    if (HAS_CHECKER && !is_side)
+        s.point += body.axis * (is_top ? -CONE_INSET : CONE_INSET) * body.height;
+    read_material(body.shade & ~(FRUSTUM_SHADE | FRUSTUM_TURNED), body.body, REAL2(0.0), spot, s);
+    s.point = point;
+}
+
 void make_surface(hit_record hit, REAL3 origin, REAL3 direction, inout surface s) {
-    bool sphere = (hit.item & ITEM_SPHERE) != 0u;
-    if (HAS_TRIANGLES && !(HAS_SPHERES && sphere))
+    bool sphere = (hit.item & ITEM_SPHERE) != 0u, frustum = HAS_CONES && hit.b1 != 0.0;
+    if (HAS_TRIANGLES && !(HAS_ROUND && sphere))
         triangle_surface(hit, direction, s);
-    if (HAS_SPHERES && (!HAS_TRIANGLES || sphere))
+    if (HAS_SPHERES && (!HAS_TRIANGLES || sphere) && !frustum)
         sphere_surface(hit, origin, direction, s);
+    if (HAS_CONES && (!HAS_TRIANGLES || sphere) && (!HAS_SPHERES || frustum))
+        frustum_surface(hit, origin, direction, s);
 #ifdef ALTERNATIVES
     if (alternative_moves()) {
         s.point = origin + direction * hit.t;

@@ -19,6 +19,7 @@
 #include "wide.glsl"
 #include "triangles.glsl"
 #include "exact.glsl"
+#include "cones.glsl"
 #include "spheres.glsl"
 #include "surface.glsl"
 #include "ray_offset.glsl"
@@ -273,8 +274,8 @@ bool trace_ray(ray_start start, REAL3 direction, bool traced, bool any, inout hi
         if (long_resumes)
             hit = long_hit();
     }
-    if (HAS_SPHERES && before_triangles)
-        trace_spheres(start.at, direction, any, hit, iterations);
+    if (HAS_ROUND && before_triangles)
+        trace_spheres(start, direction, any, hit, iterations);
     if (hit.item == NO_ITEM || (hit.item & ITEM_SPHERE) != 0u)
         sphere = hit;
     if (HAS_TRIANGLES && !(any && hit.item != NO_ITEM) && !(HAS_LONG_RAYS && long_stopped != TREE_NONE))

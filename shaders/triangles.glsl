@@ -8,21 +8,41 @@
 
 struct hit_record {
     REAL t;      // until something is hit, the ray's end
-    REAL b1;     // barycentrics of v1 and v2 as stored
+    REAL b1;     // barycentrics of v1 and v2 as stored; of a cone: cones.glsl
     REAL b2;
-    uint item;   // leaf item, with ITEM_SPHERE for spheres; NO_ITEM: nothing
-    uint number; // spheres by body, then triangles: breaks ties
+    uint item;   // leaf item, with ITEM_SPHERE for spheres and cones; NO_ITEM: nothing
+    uint number; // spheres by body, then triangles and cones: breaks ties
 };
 const uint NO_ITEM = 0xffffffffu;
 const uint ITEM_SPHERE = 0x80000000u;
+
+// Where hit.b1 says that a cone is hit; 0: a sphere is. hit.b2 is 1 where the ray enters it, 0 where it leaves it.
+const REAL FACE_SIDE = 1.0;
+const REAL FACE_BASE = 2.0;
+const REAL FACE_TOP = 3.0;
 
 // Where a ray starts.
 struct ray_start {
     REAL3 at;    // rounded: what trees and the first tests begin at
     REAL slack;  // bound of its error, by component
-    uint left;   // triangle that the ray leaves, which it cannot hit; NO_ITEM: none, and `at` is exact
-    REAL b1, b2; // the exact place on that triangle
+    uint left;   // triangle that the ray leaves, which it cannot hit; NO_ITEM: none, and `at` is exact; with ITEM_SPHERE
+                 // a sphere or cone, and `at` is exact, too
+    REAL b1, b2; // the exact place on that triangle; b1 of a cone: to which side (cones.glsl)
 };
+
+// How far rounding may move the t of a hit on a cone's disc: a triangle may lie in the same plane, as a floor does under
+// a column. 0: another hit.
+REAL disc_error(hit_record hit, REAL3 start, REAL3 direction, out REAL3 normal) {
+    bool is_disc = HAS_CONES && hit.item != NO_ITEM && (hit.item & ITEM_SPHERE) != 0u && hit.b1 > FACE_SIDE;
+    REAL error = 0.0;
+    normal = REAL3(0.0);
+    if (is_disc) {
+        frustum_record body = load_frustum(hit.item & ~ITEM_SPHERE);
+        normal = body.axis;
+        error = 2.0 * GAMMA_7 * (largest3(abs(start)) + largest3(abs(body.base)) + body.height) / abs(dot3(direction, normal));
+    }
+    return error;
+}
 
 ray_start exact_start(REAL3 at) { return ray_start(at, 0.0, NO_ITEM, 0.0, 0.0); }
 
@@ -255,6 +275,10 @@ bool trace_triangles(ray_start start, REAL3 direction, bool any, inout hit_recor
     tree_ray ray = make_tree_ray(start.at, direction);
     triangle_search search =
         triangle_search(make_shear_ray(start.at, direction), start.slack, start.left, 0.0, FAR_AWAY, FAR_AWAY, NO_ITEM, NO_ITEM);
+    if (HAS_CONES) {
+        REAL3 normal;
+        search.wrong = disc_error(hit, start.at, direction, normal);
+    }
     STACK(TRIANGLE_STACK)
     uvec2 group = root_group();
     bool more = true;

@@ -5,7 +5,7 @@
 set -eu
 
 check="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libexpat1-dev libjansson-dev libpng-dev zlib1g-dev
-libjpeg62-turbo-dev libopenexr-dev libwebp-dev libminizip-dev libxxhash-dev"
+libjpeg62-turbo-dev libopenexr-dev libwebp-dev libminizip-dev libxxhash-dev libfreetype-dev"
 build="$check libstb-dev libvulkan-dev libvulkan-volk-dev libvulkan1 mesa-vulkan-drivers
 glslang-tools spirv-headers spirv-tools libglfw3-dev"
 test="libcmocka-dev vulkan-validationlayers valgrind libxml2-utils clang-format git xvfb libx11-dev libxtst-dev"

@@ -105,6 +105,7 @@ static inline void gpu_pack_double3(struct gpu_word *words, uint32_t word, vec3 
 GPU_RECORD(node, NODE)
 GPU_RECORD_OF(triangle, TRIANGLE, GPU_PACK64_SPLIT3)
 GPU_RECORD(sphere, SPHERE)
+GPU_RECORD(frustum, FRUSTUM)
 GPU_RECORD(normal, NORMAL)
 GPU_RECORD(body, BODY)
 GPU_RECORD(material, MATERIAL)

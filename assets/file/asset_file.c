@@ -240,9 +240,10 @@ str asset_base(const struct assets_input *input, span at) {
 
 static void report_missing(struct asset_file *file, str path) {
     asset_report_named(file, DIAG_FILE_MISSING, "the %s '%.*s' does not exist", file->what, STR_ARG(path));
-    bool is_image = file->limit == LIMIT_IMAGE_BYTES;
-    str near = files_suggest(file->input->files, file->path,
-                             schema_file_endings(is_image ? SCHEMA_FILE_IMAGE : SCHEMA_FILE_MESH));
+    const enum schema_file kind = file->limit == LIMIT_IMAGE_BYTES  ? SCHEMA_FILE_IMAGE
+                                  : file->limit == LIMIT_FONT_BYTES ? SCHEMA_FILE_FONT
+                                                                    : SCHEMA_FILE_MESH;
+    str near = files_suggest(file->input->files, file->path, schema_file_endings(kind));
     str folder = str_slice(path, 0, path.len - path_base(path).len);
     str advice = files_advice(file->input->files->arena, path);
     if (advice.len) {

@@ -38,6 +38,9 @@ static enum turns_status open_embree(void *state, const struct turns_options *o,
     for (uint32_t i = 0; i < session->resolved.material_count; i++)
         if (scene_material_is_painted(&session->resolved.materials[i]))
             return turns_say(TURNS_FAILED, "images on bodies and filtered checkers are not shown here");
+    for (uint32_t i = 0; i < session->resolved.body_count; i++)
+        if (session->resolved.bodies[i].shape == SCENE_CONE)
+            return turns_say(TURNS_FAILED, "cylinders and cones are not shown here");
     const struct peer_wish wish = {.scene = &session->resolved,
                                    .view = &e->view,
                                    .origin = session_origin(session, &e->view),

@@ -70,6 +70,9 @@ static int export_loaded(const struct options *o, struct session *session) {
     for (uint32_t i = 0; i < session->resolved.material_count; i++)
         if (scene_material_is_painted(&session->resolved.materials[i]))
             return fail(o->words[1], "images on bodies and filtered checkers cannot be exported");
+    for (uint32_t i = 0; i < session->resolved.body_count; i++)
+        if (session->resolved.bodies[i].shape == SCENE_CONE)
+            return fail(o->words[1], "cylinders and cones cannot be exported");
     const struct export_input input = {.scene = &session->resolved,
                                        .view = &view,
                                        .background_path = image_path(&session->assets),

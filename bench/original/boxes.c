@@ -27,10 +27,11 @@ static bool is_rectangle(const struct gpu_word *triangle) {
 
 const char *original_lacks(const struct flat_scene *flat) {
     static const struct {
-        uint32_t features;
+        uint64_t features;
         const char *name;
     } lacks[] = {
         {FEATURE_SPHERES, "spheres"},
+        {FEATURE_CONES, "cylinders and cones"},
         {FEATURE_DIRECTION_LIGHT, "lights with a direction"},
         {FEATURE_INVERSE_SQUARE, "lights with a falloff"},
         {FEATURE_DEPTH_BLACK, "a black depth limit"},

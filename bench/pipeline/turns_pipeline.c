@@ -47,6 +47,8 @@ static const char *material_needs(const struct scene_material *m) {
 static const char *body_needs(const struct scene *scene, const struct scene_body *body) {
     if (body->shape == SCENE_SPHERE)
         return "spheres";
+    if (body->shape == SCENE_CONE)
+        return "cylinders and cones";
     if (body->smooth)
         return "smooth shading";
     const char *needs = NULL;

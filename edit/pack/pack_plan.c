@@ -259,6 +259,8 @@ static void place_all(struct planner *p) {
             place(p, use, "meshes");
         else if (use->role == INVENTORY_IMAGE && !use->named_in.len)
             place(p, use, "images");
+        else if (use->role == INVENTORY_FONT)
+            place(p, use, "fonts");
     }
 }
 

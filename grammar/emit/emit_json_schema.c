@@ -131,6 +131,7 @@ static json_t *value_schema(const struct schema_row *row) {
         return text_schema(row->text);
     case SCHEMA_VECTOR:
     case SCHEMA_PAIR:
+    case SCHEMA_POINT:
     case SCHEMA_COLOR:
     case SCHEMA_WEIGHTS:
         return components_schema(row);

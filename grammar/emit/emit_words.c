@@ -26,7 +26,8 @@ static void text_words(const struct schema_row *row, struct strbuf *out) {
         [SCHEMA_TEXT_TARGET] = "way to a value",
         [SCHEMA_TEXT_VALUES] = "one to four numbers or expressions",
     };
-    static const char *const files[] = {"", " of a scene file", " of an image file", " of a mesh file"};
+    static const char *const files[] = {"", " of a scene file", " of an image file", " of a mesh file",
+                                        " of a font"};
     strbuf_cstr(out, texts[row->text]);
     strbuf_cstr(out, files[row->file]);
     if (row->file == SCHEMA_FILE_MESH) {
@@ -61,6 +62,9 @@ void emit_type_words(const struct schema_row *row, struct strbuf *out) {
         break;
     case SCHEMA_PAIR:
         strbuf_cstr(out, row->fill ? "pair u v, or one number" : "pair u v");
+        break;
+    case SCHEMA_POINT:
+        strbuf_cstr(out, "point x y");
         break;
     case SCHEMA_COLOR:
         strbuf_cstr(out, "colour r g b, one number, or #rrggbb");

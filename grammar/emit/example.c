@@ -27,13 +27,45 @@ static void mark(const struct schema_element *schema, uint32_t i, void *element)
     }
 }
 
+static const char *with_commas(struct arena *arena, str text) {
+    str out = STR("");
+    for (size_t i = 0; i < text.len; i++)
+        out = arena_format(arena, "%.*s%s%c", STR_ARG(out), text.ptr[i] == ' ' ? "," : "", text.ptr[i]);
+    return out.ptr;
+}
+
+// A list of items that have only their short row; that may be a list of its own, with blanks between its
+// items.
+static void example_items(const struct schema_row *row, void *element, struct arena *arena) {
+    const struct schema_row *inner = &row->child->rows[schema_short_row(row->child)];
+    str rest = str_from(row->example);
+    while (rest.len) {
+        const char *end = memchr(rest.ptr, ',', rest.len);
+        const str one = str_slice(rest, 0, end ? (size_t)(end - rest.ptr) : rest.len);
+        const struct schema_row nested = {.child = inner->child,
+                                          .kind = inner->kind,
+                                          .offset = inner->offset,
+                                          .example = with_commas(arena, one)};
+        void *item = new_element(row->child, arena);
+        if (inner->kind == SCHEMA_LIST)
+            example_items(&nested, item, arena);
+        else
+            schema_set_field(inner, schema_field(inner, item), arena_copy(arena, one).ptr);
+        mark(row->child, (uint32_t)schema_short_row(row->child), item);
+        ir_walk_append(arena, row, element, item);
+        rest = end ? str_slice(rest, one.len + 2, rest.len) : STR("");
+    }
+}
+
 void example_row(const struct schema_row *row, uint32_t i, void *element, struct arena *arena) {
     const char *text = row->example    ? row->example
                        : row->standard ? row->standard
                        : row->words    ? row->words[0]
                                        : NULL;
     char *field = schema_field(row, element);
-    if (row->kind == SCHEMA_LIST) {
+    if (row->kind == SCHEMA_LIST && row->example) {
+        example_items(row, element, arena);
+    } else if (row->kind == SCHEMA_LIST) {
         void *item = new_element(row->child, arena);
         fill(row->child, item, arena);
         ir_walk_append(arena, row, element, item);
@@ -102,7 +134,9 @@ static void fill_path(const struct schema_element *schema, void *element, const 
         if ((schema->rows[i].required || schema->rows[i].key) && i != *path && !is_root)
             example_row(&schema->rows[i], i, element, arena);
     }
-    if (row->kind == SCHEMA_LIST) {
+    if (row->kind == SCHEMA_LIST && row->example) {
+        example_row(row, *path, element, arena);
+    } else if (row->kind == SCHEMA_LIST) {
         void *item = new_element(row->child, arena);
         fill_path(row->child, item, path + 1, left - 1, arena);
         ir_walk_append(arena, row, element, item);

@@ -122,7 +122,8 @@ static bool same_components(const struct schema_row *row, const void *a, const v
 
 static bool same_text(struct differ *d, const struct pair *p, uint32_t i, str a, str b) {
     const struct schema_row *row = &p->schema->rows[i];
-    if (row->text != SCHEMA_TEXT_PATH || !a.len || !b.len || !d->a->file || !d->b->file)
+    if (!ir_walk_path(row, p->a) || !ir_walk_path(row, p->b) || !a.len || !b.len || !d->a->file ||
+        !d->b->file)
         return str_equal(a, b);
     return str_equal(d->a->file(d->a->context, d->arena, row_place(d->a, p->a, i), a),
                      d->b->file(d->b->context, d->arena, row_place(d->b, p->b, i), b));
@@ -148,10 +149,10 @@ static bool is_renamed(const struct differ *d, str before, str after) {
 
 static void diff_reference(struct differ *d, const struct pair *p, uint32_t i) {
     const struct schema_row *row = &p->schema->rows[i];
-    const struct ir_material_ref *a = schema_field_const(row, p->a), *b = schema_field_const(row, p->b);
+    const struct ir_reference *a = schema_field_const(row, p->a), *b = schema_field_const(row, p->b);
     const void *to_a = ir_walk_referent(d->a->scene, row, a), *to_b = ir_walk_referent(d->b->scene, row, b);
     if (!to_a || !to_b) {
-        if (to_a || to_b || !str_equal(a->name, b->name))
+        if (to_a || to_b || !same_text(d, p, i, a->name, b->name))
             add_row(d, p, i, to_a ? IR_REMOVED : to_b ? IR_ADDED : IR_CHANGED);
     } else if (a->name.len && b->name.len) {
         if (!str_equal(a->name, b->name) && !is_renamed(d, a->name, b->name))

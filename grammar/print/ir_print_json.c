@@ -63,6 +63,7 @@ static void put_value(struct json_writer *w, const struct schema_row *row, const
         break;
     case SCHEMA_VECTOR:
     case SCHEMA_PAIR:
+    case SCHEMA_POINT:
     case SCHEMA_COLOR:
     case SCHEMA_WEIGHTS:
         put_numbers(w, row, field);
@@ -74,7 +75,7 @@ static void put_value(struct json_writer *w, const struct schema_row *row, const
         if (ir_walk_is_inline(w->scene, row, field))
             put_element(w, row->child, ir_walk_referent(w->scene, row, field), indent);
         else
-            print_json_text(w->out, ((const struct ir_material_ref *)field)->name);
+            print_json_text(w->out, ((const struct ir_reference *)field)->name);
         break;
     default:
         print_plain_value(w->out, row, field);

@@ -33,6 +33,7 @@ static bool value_is_attribute(const struct xml_writer *w, const struct schema_r
         return ((const struct ir_color *)field)->is_hex || print_is_uniform(row, field);
     case SCHEMA_VECTOR:
     case SCHEMA_PAIR:
+    case SCHEMA_POINT:
         return print_is_uniform(row, field);
     case SCHEMA_REFERENCE:
         return !ir_walk_is_inline(w->scene, row, field);
@@ -61,11 +62,12 @@ static void put_attribute_value(const struct schema_row *row, const void *field,
         print_xml_text(out, *(const str *)field);
         break;
     case SCHEMA_REFERENCE: // to a name that need not be one: only this file is read
-        print_xml_text(out, ((const struct ir_material_ref *)field)->name);
+        print_xml_text(out, ((const struct ir_reference *)field)->name);
         break;
     case SCHEMA_COLOR:
     case SCHEMA_VECTOR:
     case SCHEMA_PAIR:
+    case SCHEMA_POINT:
         if (row->kind == SCHEMA_COLOR && ((const struct ir_color *)field)->is_hex) {
             print_hex_color(out, ((const struct ir_color *)field)->hex);
         } else {

@@ -26,14 +26,14 @@ enum {
 
 static void flow_element(struct yaml_writer *w, const struct schema_element *schema, const void *element,
                          struct strbuf *out);
-static void flow_value(struct yaml_writer *w, const struct schema_row *row, const void *field,
-                       struct strbuf *out);
+static void flow_row(struct yaml_writer *w, const struct schema_row *row, const void *element,
+                     struct strbuf *out);
 
 static void flow_item(struct yaml_writer *w, const struct schema_element *schema, const void *item,
                       struct strbuf *out) {
     int only = ir_walk_short(w->scene, schema, item);
     if (only >= 0)
-        flow_value(w, &schema->rows[only], schema_field_const(&schema->rows[only], item), out);
+        flow_row(w, &schema->rows[only], item, out);
     else
         flow_element(w, schema, item, out);
 }
@@ -88,6 +88,7 @@ static void flow_value(struct yaml_writer *w, const struct schema_row *row, cons
         break;
     case SCHEMA_VECTOR:
     case SCHEMA_PAIR:
+    case SCHEMA_POINT:
     case SCHEMA_COLOR:
     case SCHEMA_WEIGHTS:
         flow_numbers(row, field, out);
@@ -99,7 +100,7 @@ static void flow_value(struct yaml_writer *w, const struct schema_row *row, cons
         if (ir_walk_is_inline(w->scene, row, field))
             flow_element(w, row->child, ir_walk_referent(w->scene, row, field), out);
         else
-            print_yaml_text(out, ((const struct ir_material_ref *)field)->name, true);
+            print_yaml_text(out, ((const struct ir_reference *)field)->name, true);
         break;
     default:
         print_plain_value(out, row, field);

@@ -146,8 +146,8 @@ static bool looks_smooth(const struct mesh *mesh, struct arena *arena) {
 
 // ---- the scene
 
-static struct ir_material_ref add_material(struct ir_scene *scene, struct arena *arena, const char *name,
-                                           double specular, struct ir_color color) {
+static struct ir_reference add_material(struct ir_scene *scene, struct arena *arena, const char *name,
+                                        double specular, struct ir_color color) {
     struct ir_material *material = ARENA_PUSH(arena, &scene->materials);
     schema_init(&SCHEMA_MATERIAL, material);
     material->name = str_from(name);
@@ -159,7 +159,7 @@ static struct ir_material_ref add_material(struct ir_scene *scene, struct arena 
     if (specular > 0)
         mark(&material->head, &SCHEMA_MATERIAL, "specular_exponent");
     mark(&scene->head, &SCHEMA_SCENE, "material");
-    return (struct ir_material_ref){material->name, scene->materials.count - 1};
+    return (struct ir_reference){material->name, scene->materials.count - 1};
 }
 
 static void add_picture(struct ir_scene *scene) {
@@ -226,7 +226,7 @@ static bool has_materials(const struct mesh *mesh) {
 static void add_model(const struct around_input *in, struct ir_scene *scene) {
     struct ir_model *model = ARENA_PUSH(in->arena, &scene->models);
     schema_init(&SCHEMA_MODEL, model);
-    model->mesh = in->name;
+    model->mesh.name = in->name;
     mark(&model->head, &SCHEMA_MODEL, "mesh");
     if (!has_materials(in->mesh)) {
         model->material =

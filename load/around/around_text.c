@@ -18,8 +18,8 @@ static void load(struct asset_store *store, const struct assets_input *given, st
     ir_origin_init(origin, arena);
     struct ir_model *model = ARENA_PUSH(arena, &scene->models);
     schema_init(&SCHEMA_MODEL, model);
-    model->mesh = path;
-    model->material = (struct ir_material_ref){.index = IR_NO_INDEX};
+    model->mesh.name = path;
+    model->material = (struct ir_reference){.index = IR_NO_INDEX};
     input.scene = scene;
     input.origin = origin;
     input.sink = &sink;

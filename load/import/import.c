@@ -30,7 +30,7 @@ struct importing {
     str *material_names;  // by material of the file; empty: not used so far
     struct str_map parts; // names of meshes: how many meshes have each
     double dimming;
-    struct ir_material_ref clay; // the material for a file without materials
+    struct ir_reference clay; // the material for a file without materials
 };
 
 static void write(struct ir_head *head, const struct schema_element *schema, const char *row) {
@@ -59,8 +59,8 @@ static void put_material(struct importing *im, uint32_t material) {
     write(&im->out->head, &SCHEMA_SCENE, "material");
 }
 
-static struct ir_material_ref ref_to(const struct importing *im, uint32_t material) {
-    return (struct ir_material_ref){.name = im->material_names[material], .index = IR_NO_INDEX};
+static struct ir_reference ref_to(const struct importing *im, uint32_t material) {
+    return (struct ir_reference){.name = im->material_names[material], .index = IR_NO_INDEX};
 }
 
 // The materials of a mesh's primitives that have faces, each once; GLTF_NONE among them: one has none.
@@ -140,7 +140,7 @@ static void put_model(struct importing *im, uint32_t index) {
     schema_init(&SCHEMA_MODEL, model);
     model->material.index = IR_NO_INDEX;
     model->name = import_name(&im->bodies, node->name.len ? node->name : mesh->name, "body");
-    model->mesh = im->options->mesh;
+    model->mesh = (struct ir_reference){im->options->mesh, IR_NO_INDEX};
     model->part = import_place_of(node->world, &place) ? part_name(im, node->mesh)
                                                        : arena_format(im->arena, "node %u", index);
     model->smooth = is_smooth(im->gltf, mesh);

@@ -159,6 +159,8 @@ static void change_bodies(struct variant *v, const struct change *c) {
         map.offset = changed(c, map.offset);
         for (int k = 0; k < 9 && !shape_traits(body->shape).has_radius; k++)
             map.linear.m[k / 3][k % 3] *= c->factor;
+        body->radius_to *= c->factor;
+        body->height *= c->factor;
         scene_body_place(body, map, body->radius * c->factor);
     }
 }

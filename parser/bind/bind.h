@@ -236,6 +236,8 @@ uint32_t bind_list_count(const void *field);
 // Forgets all items; a large list's memory is free again.
 void bind_list_give_back(struct arena *arena, void *field, uint32_t size);
 void bind_list_remove(void *field, uint32_t index, uint32_t size);
+// Keeps the first `count` items.
+void bind_list_cut(void *field, uint32_t count);
 // Puts a row back to its default and forgets that it was written.
 void bind_clear_row(struct arena *scratch, struct ir_origin *origin, const struct schema_element *schema,
                     void *memory, uint32_t row);

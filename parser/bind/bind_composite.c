@@ -14,10 +14,6 @@ enum {
     COMPONENTS_MAX = 4
 };
 
-static uint32_t component_count(enum schema_kind kind) {
-    return kind == SCHEMA_WEIGHTS ? 4 : kind == SCHEMA_PAIR ? 2 : 3;
-}
-
 static struct bind_subject component_of(struct bind_subject subject, uint32_t i) {
     subject.component = schema_components(subject.row->kind)[i];
     return subject;
@@ -42,7 +38,7 @@ static void help_without_alpha(struct bind_context *context, tree_index node) {
 
 static bool bind_list(struct bind_context *context, struct bind_subject subject, tree_index node,
                       double out[COMPONENTS_MAX]) {
-    uint32_t wanted = component_count(subject.row->kind);
+    uint32_t wanted = schema_component_count(subject.row->kind);
     uint32_t count = tree_node(context->tree, node)->count;
     bool good = true;
     bool counts = true;
@@ -168,7 +164,7 @@ static bool is_braced_list(const struct bind_context *context, tree_index node) 
 static bool bind_named(struct bind_context *context, struct bind_subject subject, tree_index node,
                        double out[COMPONENTS_MAX]) {
     const struct tree *tree = context->tree;
-    uint32_t wanted = component_count(subject.row->kind);
+    uint32_t wanted = schema_component_count(subject.row->kind);
     bool given[COMPONENTS_MAX] = {false};
     bool all_known = true;
     bool as_element = false; // <x>1</x> for x="1"
@@ -202,6 +198,8 @@ static void store(enum schema_kind kind, const double n[COMPONENTS_MAX], void *o
         *(vec3 *)out = (vec3){n[0], n[1], n[2]};
     else if (kind == SCHEMA_PAIR)
         *(struct ir_pair *)out = (struct ir_pair){n[0], n[1]};
+    else if (kind == SCHEMA_POINT)
+        *(struct ir_point *)out = (struct ir_point){n[0], n[1]};
     else if (kind == SCHEMA_COLOR)
         *(struct ir_color *)out = (struct ir_color){.r = n[0], .g = n[1], .b = n[2]};
     else

@@ -11,13 +11,13 @@
 
 static bool bind_reference(struct bind_context *context, struct bind_frame *frame,
                            const struct schema_row *row, struct bind_given given) {
-    struct ir_material_ref *ref = schema_field(row, frame->memory);
+    struct ir_reference *ref = schema_field(row, frame->memory);
     enum tree_kind kind = bind_kind(context, given.value);
     if (kind == TREE_SCALAR && !bind_is_bad(context, given.value)) {
         str name = tree_text(context->tree, given.value);
         if (!bind_name_text(context, bind_subject(frame, row), name, tree_span(context->tree, given.value)))
             return false;
-        *ref = (struct ir_material_ref){bind_copy_once(context, name), IR_NO_INDEX};
+        *ref = (struct ir_reference){bind_copy_once(context, name), IR_NO_INDEX};
         return true;
     }
     if (kind != TREE_MAP)

@@ -53,6 +53,14 @@ void bind_list_remove(void *field, uint32_t index, uint32_t size) {
     memcpy(field, &list, sizeof list);
 }
 
+void bind_list_cut(void *field, uint32_t count) {
+    struct any_list list;
+    memcpy(&list, field, sizeof list);
+    assert(count <= list.count);
+    list.count = count;
+    memcpy(field, &list, sizeof list);
+}
+
 void bind_clear_row(struct arena *scratch, struct ir_origin *origin, const struct schema_element *schema,
                     void *memory, uint32_t row) {
     const struct schema_row *r = &schema->rows[row];

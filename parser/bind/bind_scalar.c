@@ -77,9 +77,7 @@ bool bind_help_numbers(struct bind_context *context, struct bind_subject subject
     str text =
         kind == TREE_SCALAR && !parted ? tree_text(context->tree, node) : source_text(context->sources, at);
     str list = mend_numbers(context->scratch, text,
-                            row->kind == SCHEMA_WEIGHTS ? 4
-                            : row->kind == SCHEMA_PAIR  ? 2
-                                                        : 3);
+                            schema_component_count(row->kind) ? schema_component_count(row->kind) : 3);
     if (list.len == 0 || !schema_components(row->kind)[0]) {
         fix_scalar(context, row, node, text);
         return false;

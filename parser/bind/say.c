@@ -138,7 +138,7 @@ str say_expected(struct arena *arena, const struct schema_row *row) {
         return say_words(arena, row->words);
     case SCHEMA_TEXT:
         return row->text == SCHEMA_TEXT_PATH     ? STR("the path of a file")
-               : row->text == SCHEMA_TEXT_FREE   ? STR("text")
+               : row->text == SCHEMA_TEXT_FREE   ? STR("some text")
                : row->text == SCHEMA_TEXT_VALUES ? STR("one to four numbers or expressions")
                : row->text == SCHEMA_TEXT_TARGET ? STR("the way to a value")
                                                  : STR("a name");
@@ -147,6 +147,8 @@ str say_expected(struct arena *arena, const struct schema_row *row) {
                          : STR("three numbers x, y, z");
     case SCHEMA_PAIR:
         return row->fill ? STR("two numbers u, v, or one number for both") : STR("two numbers u, v");
+    case SCHEMA_POINT:
+        return STR("two numbers x, y");
     case SCHEMA_COLOR:
         return STR("a colour (three numbers r, g, b, one number for all three, or #rrggbb)");
     case SCHEMA_WEIGHTS:

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-struct ir_material_ref;
+struct ir_reference;
 struct schema_element;
 
 struct visit_place {
@@ -14,7 +14,7 @@ struct visit_place {
 };
 
 // Called for every reference of an element, of its children and of the entries of its lists, in table order.
-typedef void visit_reference(void *context, struct visit_place place, struct ir_material_ref *reference);
+typedef void visit_reference(void *context, struct visit_place place, struct ir_reference *reference);
 void visit_references(const struct schema_element *schema, void *memory, visit_reference *visit,
                       void *context);
 

@@ -1,5 +1,7 @@
 // One scene from several files: elements that occur once merge by attribute, lists are joined.
 #include "grammar/ir.h"
+#include "grammar/ir_walk.h"
+#include "grammar/schema.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/visit.h"
 #include "parser/stages/loader.h"
@@ -23,7 +25,7 @@ struct merging {
     uint32_t *first; // by row of the scene: entries there before this file's
 };
 
-static void move_reference(void *context, struct visit_place place, struct ir_material_ref *reference) {
+static void move_reference(void *context, struct visit_place place, struct ir_reference *reference) {
     const struct merging *merging = context;
     if (reference->name.len == 0 && reference->index != IR_NO_INDEX)
         reference->index += merging->first[bind_home_row(place.schema->rows[place.row].child)];
@@ -216,40 +218,50 @@ struct ir_scene *merge_files(struct loader *loader) {
 // Compacting.
 
 struct uses {
+    const struct schema_element *of;
     bool *used;
     uint32_t *moved_to;
 };
 
-static void mark_use(void *context, struct visit_place place, struct ir_material_ref *reference) {
-    (void)place;
-    if (reference->index != IR_NO_INDEX)
-        ((struct uses *)context)->used[reference->index] = true;
+static bool is_use(const struct uses *uses, struct visit_place place, const struct ir_reference *reference) {
+    return reference->index != IR_NO_INDEX && place.schema->rows[place.row].child == uses->of;
 }
 
-static void move_use(void *context, struct visit_place place, struct ir_material_ref *reference) {
-    (void)place;
-    if (reference->index != IR_NO_INDEX)
-        reference->index = ((struct uses *)context)->moved_to[reference->index];
+static void mark_use(void *context, struct visit_place place, struct ir_reference *reference) {
+    struct uses *uses = context;
+    if (is_use(uses, place, reference))
+        uses->used[reference->index] = true;
+}
+
+static void move_use(void *context, struct visit_place place, struct ir_reference *reference) {
+    const struct uses *uses = context;
+    if (is_use(uses, place, reference))
+        reference->index = uses->moved_to[reference->index];
+}
+
+static void compact(struct loader *loader, struct ir_scene *scene, const struct schema_element *of) {
+    const struct schema_row *pool = ir_walk_pool(of);
+    const struct ir_any_list list = ir_walk_list(pool, scene);
+    uint32_t kept = 0, named = 0;
+    while (named < list.count && !ir_walk_is_anonymous(of, ir_walk_item(pool, list, named)))
+        named++;
+    if (named == list.count)
+        return;
+    struct uses uses = {of, ARENA_ARRAY(&loader->scratch, bool, list.count),
+                        ARENA_ARRAY(&loader->scratch, uint32_t, list.count)};
+    visit_references(&SCHEMA_SCENE, scene, mark_use, &uses);
+    for (uint32_t i = 0; i < list.count; i++) {
+        const void *item = ir_walk_item(pool, list, i);
+        uses.moved_to[i] = kept;
+        if (uses.used[i] || !ir_walk_is_anonymous(of, item))
+            memmove(ir_walk_item(pool, list, kept++), item, of->size);
+    }
+    bind_list_cut(schema_field(pool, scene), kept);
+    visit_references(&SCHEMA_SCENE, scene, move_use, &uses);
 }
 
 void merge_compact(struct loader *loader, struct ir_scene *scene) {
-    uint32_t count = scene->materials.count;
-    bool all_named = true;
-    for (uint32_t i = 0; i < count && all_named; i++)
-        all_named = scene->materials.items[i].name.len > 0;
-    if (all_named)
-        return;
-    struct uses uses = {ARENA_ARRAY(&loader->scratch, bool, count),
-                        ARENA_ARRAY(&loader->scratch, uint32_t, count)};
-    visit_references(&SCHEMA_SCENE, scene, mark_use, &uses);
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        const struct ir_material *material = &scene->materials.items[i];
-        uses.moved_to[i] = kept;
-        if (uses.used[i] || material->name.len)
-            scene->materials.items[kept++] = *material;
-    }
-    scene->materials.count = kept;
-    visit_references(&SCHEMA_SCENE, scene, move_use, &uses);
+    compact(loader, scene, &SCHEMA_MATERIAL);
+    compact(loader, scene, &SCHEMA_MESH);
     arena_finish(&loader->scratch);
 }

@@ -2,6 +2,7 @@
 #include "core/str_map.h"
 #include "diag/codes/reference.h"
 #include "grammar/ir.h"
+#include "grammar/ir_walk.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/bind/visit.h"
@@ -212,8 +213,11 @@ static void report_unknown(struct resolving *resolving, const struct named_list 
         note_may_be_unread(resolving, row->child->name, at, name);
         return;
     }
-    diag_add(sink, DIAG_UNKNOWN_MATERIAL, at, "there is no %s '%.*s'", row->child->name,
-             STR_ARG(say_text(&loader->scratch, name)));
+    diag_add(sink, row->child == &SCHEMA_MATERIAL ? DIAG_UNKNOWN_MATERIAL : DIAG_UNKNOWN_MESH, at,
+             "there is no %s '%.*s'", row->child->name, STR_ARG(say_text(&loader->scratch, name)));
+    if (row->file != SCHEMA_FILE_NONE)
+        diag_note(sink, SPAN_NONE, "the name of a file has an ending: %.*s",
+                  STR_ARG(schema_file_words(row->file, &loader->scratch)));
     if (diag_is_full(sink))
         return;
     if (!search || !search->best) {
@@ -228,10 +232,11 @@ static void report_unknown(struct resolving *resolving, const struct named_list 
              mend_like(&loader->scratch, written, str_from(search->best)));
 }
 
-static void resolve(void *context, struct visit_place place, struct ir_material_ref *reference) {
+static void resolve(void *context, struct visit_place place, struct ir_reference *reference) {
     struct resolving *resolving = context;
     const struct ir_head *head = place.memory;
-    if (reference->name.len == 0 || (head->poisoned & bind_bit(place.row)))
+    if (reference->name.len == 0 || (head->poisoned & bind_bit(place.row)) ||
+        ir_walk_path(&place.schema->rows[place.row], place.memory))
         return;
     uint32_t home = bind_home_row(place.schema->rows[place.row].child);
     const struct named_list *list = &resolving->by_row[home];

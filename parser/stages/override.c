@@ -42,7 +42,7 @@ struct removal {
     uint32_t index;
 };
 
-static void move_down(void *context, struct visit_place place, struct ir_material_ref *reference) {
+static void move_down(void *context, struct visit_place place, struct ir_reference *reference) {
     const struct removal *removal = context;
     bool concerns = place.schema->rows[place.row].child == removal->schema && reference->index != IR_NO_INDEX;
     if (concerns && reference->index > removal->index)

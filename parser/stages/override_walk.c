@@ -177,12 +177,12 @@ static bool not_written(struct override *o, const struct bind_frame *frame, cons
 
 struct users {
     const struct override *o;
-    const struct ir_material_ref *self;
+    const struct ir_reference *self;
     const struct schema_element *target;
     uint32_t count;
 };
 
-static void note_user(void *context, struct visit_place place, struct ir_material_ref *reference) {
+static void note_user(void *context, struct visit_place place, struct ir_reference *reference) {
     struct users *users = context;
     bool same = place.schema->rows[place.row].child == users->target && reference != users->self &&
                 str_equal(reference->name, users->self->name);
@@ -195,7 +195,7 @@ static void note_user(void *context, struct visit_place place, struct ir_materia
 }
 
 static bool through_reference(struct override *o, const struct bind_frame *frame,
-                              const struct schema_row *row, const struct ir_material_ref *reference,
+                              const struct schema_row *row, const struct ir_reference *reference,
                               uint32_t step) {
     const struct schema_row *home = &SCHEMA_SCENE.rows[bind_home_row(row->child)];
     str name = quoted_text(o, reference->name);
@@ -328,7 +328,7 @@ static struct bind_frame *element_below(struct override *o, const struct overrid
         not_written(o, frame, row, step);
         return NULL;
     }
-    struct ir_material_ref *reference = schema_field(row, frame->memory);
+    struct ir_reference *reference = schema_field(row, frame->memory);
     if (reference->name.len) {
         through_reference(o, frame, row, reference, step);
         return NULL;

@@ -15,6 +15,7 @@
 // Below this sine two directions count as parallel (docs/language.md, "Camera").
 static const double PARALLEL_SINE = 1e-9;
 static const double COORDINATE_MAX = 1e18;
+static const double LENGTH_MIN = 1e-18;
 
 enum {
     SEEN_LIGHTS_MOST = 256,
@@ -332,6 +333,52 @@ static void check_rectangle(const struct rules *rules, const struct ir_rectangle
         report_leaving(rules, schema, rectangle, rectangle->name, by_u ? "edge_u" : "edge_v");
 }
 
+// A corner, which rotation may turn into any direction, is at most the sum of the edges from the middle.
+static void check_box(const struct rules *rules, const struct ir_box *box) {
+    const struct schema_element *schema = &SCHEMA_BOX;
+    if (is_poisoned(schema, box, "center") || is_poisoned(schema, box, "size"))
+        return;
+    if (!(vec3_max_abs(box->center) + box->size.x + box->size.y + box->size.z <= COORDINATE_MAX))
+        report_leaving(rules, schema, box, box->name, "size");
+}
+
+// Its ends, and whether they are apart. The corners of a box around it are at most this far from its ends.
+static void check_ends(const struct rules *rules, const struct schema_element *schema, const void *memory,
+                       str name, vec3 from, vec3 to, double reach) {
+    if (is_poisoned(schema, memory, "from") || is_poisoned(schema, memory, "to"))
+        return;
+    if (!(vec3_max_abs(vec3_sub(to, from)) >= LENGTH_MIN)) {
+        diag_add(rules->sink, DIAG_DEGENERATE_CONE, value_place(rules, schema, memory, "to"),
+                 "'to' of %.*s is where 'from' is, which leaves no length",
+                 STR_ARG(owner(rules, schema, name)));
+        diag_note(rules->sink, value_place(rules, schema, memory, "from"), "'from' is here");
+    } else if (!(vec3_max_abs(from) + reach <= COORDINATE_MAX)) {
+        report_leaving(rules, schema, memory, name, "from");
+    } else if (!(vec3_max_abs(to) + reach <= COORDINATE_MAX)) {
+        report_leaving(rules, schema, memory, name, "to");
+    }
+}
+
+static void check_cylinder(const struct rules *rules, const struct ir_cylinder *cylinder) {
+    const struct schema_element *schema = &SCHEMA_CYLINDER;
+    const double reach = is_poisoned(schema, cylinder, "radius") ? 0 : cylinder->radius;
+    check_ends(rules, schema, cylinder, cylinder->name, cylinder->from, cylinder->to, reach);
+}
+
+static void check_cone(const struct rules *rules, const struct ir_cone *cone) {
+    const struct schema_element *schema = &SCHEMA_CONE;
+    const bool known = !is_poisoned(schema, cone, "radius_from") && !is_poisoned(schema, cone, "radius_to");
+    const double reach = known ? fmax(cone->radius_from, cone->radius_to) : 0;
+    check_ends(rules, schema, cone, cone->name, cone->from, cone->to, reach);
+    if (!known || reach >= LENGTH_MIN)
+        return;
+    diag_add(rules->sink, DIAG_DEGENERATE_CONE, value_place(rules, schema, cone, "radius_to"),
+             "both radii of %.*s are 0, which leaves nothing of it",
+             STR_ARG(owner(rules, schema, cone->name)));
+    diag_note(rules->sink, value_place(rules, schema, cone, "radius_from"), "'radius_from' is here");
+    diag_help(rules->sink, "one of them may be 0: there it ends in a tip");
+}
+
 static void check_model(const struct rules *rules, const struct ir_model *model) {
     const struct schema_element *schema = &SCHEMA_MODEL;
     bool zero = model->scale.x == 0 || model->scale.y == 0 || model->scale.z == 0;
@@ -375,6 +422,12 @@ void validate_element(struct loader *loader, const struct schema_element *schema
         check_sphere(&rules, memory);
     else if (schema == &SCHEMA_RECTANGLE)
         check_rectangle(&rules, memory);
+    else if (schema == &SCHEMA_BOX)
+        check_box(&rules, memory);
+    else if (schema == &SCHEMA_CYLINDER)
+        check_cylinder(&rules, memory);
+    else if (schema == &SCHEMA_CONE)
+        check_cone(&rules, memory);
     else if (schema == &SCHEMA_MODEL)
         check_model(&rules, memory);
 }
@@ -391,6 +444,12 @@ void validate_scene(struct loader *loader, const struct ir_scene *scene) {
         validate_element(loader, &SCHEMA_SPHERE, &scene->spheres.items[i]);
     for (uint32_t i = 0; i < scene->rectangles.count; i++)
         validate_element(loader, &SCHEMA_RECTANGLE, &scene->rectangles.items[i]);
+    for (uint32_t i = 0; i < scene->boxes.count; i++)
+        validate_element(loader, &SCHEMA_BOX, &scene->boxes.items[i]);
+    for (uint32_t i = 0; i < scene->cylinders.count; i++)
+        validate_element(loader, &SCHEMA_CYLINDER, &scene->cylinders.items[i]);
+    for (uint32_t i = 0; i < scene->cones.count; i++)
+        validate_element(loader, &SCHEMA_CONE, &scene->cones.items[i]);
     for (uint32_t i = 0; i < scene->models.count; i++)
         validate_element(loader, &SCHEMA_MODEL, &scene->models.items[i]);
     arena_finish(&loader->scratch);

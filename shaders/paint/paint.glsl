@@ -310,7 +310,39 @@ void sphere_spot(REAL3 outward, REAL radius, REAL width, inout paint_spot spot) 
     spot.across = sphere_change(map, spot.axis_across / radius);
 }
 
-// ---- cones
+// Of a cylinder or cone: a hit on it.
+struct frustum_map {
+    REAL3 arm;     // from the axis
+    REAL radius;   // of the body there
+    bool turned;   // the base is the end 'to'
+    REAL height;   // of the body
+    REAL above;    // the base
+};
+
+// The side: u around the axis, as on a sphere whose poles are the ends; v along it, from 'from' to 'to'. A disc: the image's
+// inscribed one, as seen from outside. `face`: hit.b1. The body's rows are its own axes.
+void frustum_spot(body_record body, frustum_map map, REAL face, REAL width, inout paint_spot spot) {
+    REAL3 x = unit3(body.row_x), y = unit3(body.row_y), z = unit3(body.row_z);
+    REAL2 arm = REAL2(dot3(x, map.arm), dot3(z, map.arm));
+    REAL2 along = REAL2(dot3(x, spot.axis_along), dot3(z, spot.axis_along));
+    REAL2 across = REAL2(dot3(x, spot.axis_across), dot3(z, spot.axis_across));
+    if (face == FACE_SIDE) {
+        REAL share = map.above / map.height, around = sqrt(arm.x * arm.x + arm.y * arm.y);
+        spot.at = REAL2(0.5 + arctan2(arm.y, arm.x) * (0.5 / REAL_PI), map.turned ? 1.0 - share : share);
+        REAL2 outward = around > 0.0 ? arm / around : REAL2(1.0, 0.0);
+        // Near a tip a pixel covers all of u.
+        REAL turn = 0.5 / REAL_PI / max(max(around, abs(width) * (0.5 / REAL_PI)), 1e-12 * map.height);
+        spot.along = REAL2((outward.x * along.y - outward.y * along.x) * turn, dot3(y, spot.axis_along) / map.height);
+        spot.across = REAL2((outward.x * across.y - outward.y * across.x) * turn, dot3(y, spot.axis_across) / map.height);
+    } else {
+        REAL2 half_image = REAL2(0.5, (face == FACE_TOP) == map.turned ? 0.5 : -0.5) / map.radius;
+        spot.at = 0.5 + arm * half_image;
+        spot.along = along * half_image;
+        spot.across = across * half_image;
+    }
+}
+
+// ---- cones of rays
 
 // The rounding of frame.footprint, a float, is a common factor of all widths: it cancels when they are compared.
 RAY_CONE camera_cone(REAL3 direction) {

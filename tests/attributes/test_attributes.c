@@ -127,10 +127,10 @@ static vec3 other_vector(const struct schema_row *row, vec3 v) {
 }
 
 // false: there is none.
-static bool other_reference(const struct ir_scene *scene, struct ir_material_ref *ref) {
+static bool other_reference(const struct ir_scene *scene, struct ir_reference *ref) {
     for (uint32_t i = 0; i < scene->materials.count; i++)
         if (i != ref->index && scene->materials.items[i].name.len) {
-            *ref = (struct ir_material_ref){scene->materials.items[i].name, i};
+            *ref = (struct ir_reference){scene->materials.items[i].name, i};
             return true;
         }
     return false;
@@ -164,6 +164,9 @@ static bool change(const struct bench *b, const struct use *use, void *field) {
         return true;
     case SCHEMA_PAIR:
         ((struct ir_pair *)field)->u = other_number(row, ((struct ir_pair *)field)->u);
+        return true;
+    case SCHEMA_POINT:
+        ((struct ir_point *)field)->y = other_number(row, ((struct ir_point *)field)->y);
         return true;
     case SCHEMA_VECTOR:
         *(vec3 *)field = other_vector(row, *(vec3 *)field);
@@ -455,7 +458,7 @@ static void overlap_glass(struct ir_scene *scene) {
         struct ir_material *glass = &scene->materials.items[i];
         ball->center = vec3_add(camera->look_at, (vec3){i ? 0.5 * size : 0, i ? 0.4 * size : 0, 0});
         ball->radius = 0.8 * size;
-        ball->material = (struct ir_material_ref){glass->name, i};
+        ball->material = (struct ir_reference){glass->name, i};
         glass->albedo = (struct ir_weights){.specular = 0.3, .reflection = 0.1, .refraction = 0.9};
         glass->refractive_index = i ? 1.6 : 1.2;
         glass->priority = 0; // a tie, which any other value decides

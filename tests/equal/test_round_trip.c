@@ -17,8 +17,9 @@ enum {
 
 #define LITERAL(text)                                                                                        \
     { text, sizeof(text) - 1 }
-static const str meshes[] = {LITERAL("meshes/ball.obj"), LITERAL("NO"), LITERAL("a b/\xC3\xA9 #1: [x].obj"),
-                             LITERAL("~"), LITERAL("0x10")};
+static const str meshes[] = {LITERAL("meshes/ball.obj"), LITERAL("1.0"), LITERAL("a b/\xC3\xA9 #1: [x].obj"),
+                             LITERAL("~/x.obj"), LITERAL("NO.ply")};
+static const str fonts[] = {LITERAL("fonts/Aa.ttf"), LITERAL("0x1.0")};
 static const str images[] = {LITERAL("sky.jpg"), LITERAL("1.0")};
 static const str includes[] = {LITERAL("base.yaml"), LITERAL("../other folder/more.xml")};
 static const str mesh_materials[] = {LITERAL("Gold")};
@@ -32,6 +33,7 @@ static struct ir_scene *generate(uint64_t seed, struct arena *arena) {
         .renderable = seed % 5 == 0,
         .meshes = PATHS(meshes),
         .images = PATHS(images),
+        .fonts = PATHS(fonts),
         .includes = PATHS(includes),
         .mesh_materials = PATHS(mesh_materials),
     };

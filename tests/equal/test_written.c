@@ -63,6 +63,9 @@ static void set_number(const struct schema_row *row, void *element, double value
     case SCHEMA_PAIR:
         ((struct ir_pair *)field)->u = value;
         break;
+    case SCHEMA_POINT:
+        ((struct ir_point *)field)->x = value;
+        break;
     case SCHEMA_COLOR:
         ((struct ir_color *)field)->r = value;
         break;

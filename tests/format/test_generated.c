@@ -16,7 +16,7 @@
 
 static uint64_t scenes = 300;
 
-static const str meshes[] = {{"meshes/ball.obj", 15}, {"NO", 2}, {"a b/#1: [x].obj", 15}};
+static const str meshes[] = {{"meshes/ball.obj", 15}, {"1.0", 3}, {"a b/#1: [x].obj", 15}};
 static const str includes[] = {{"base.yaml", 9}};
 static const str images[] = {{"sky.jpg", 7}};
 

@@ -121,7 +121,7 @@ static void load(void *context) {
     s->limits.value[LIMIT_MESH_TRIANGLES] = TRIANGLES_MAX;
     struct ir_model *model = ARENA_PUSH(&s->arena, &s->scene.models);
     schema_init(&SCHEMA_MODEL, model);
-    model->mesh = s->name; // each folder of a path is asked for its links
+    model->mesh = (struct ir_reference){s->name, IR_NO_INDEX}; // each folder of a path is asked for its links
     model->material.index = IR_NO_INDEX;
     struct assets_input input = {.scene = &s->scene,
                                  .origin = &s->origin,

@@ -17,6 +17,8 @@ static const struct generate_paths *paths_of(const struct generator *g, const st
         return &g->options->images;
     case SCHEMA_FILE_MESH:
         return &g->options->meshes;
+    case SCHEMA_FILE_FONT:
+        return &g->options->fonts;
     default:
         return &none;
     }
@@ -102,11 +104,16 @@ static bool make_list(struct generator *g, const struct schema_row *row, void *e
 
 // ---- values
 
-static bool make_reference(struct generator *g, const struct schema_row *row, struct ir_material_ref *out) {
+static bool make_reference(struct generator *g, const struct schema_row *row, struct ir_reference *out) {
     const struct schema_row *pool = ir_walk_pool(row->child);
+    const struct generate_paths *paths = paths_of(g, row);
     uint32_t named = count_named(g, row);
+    if (paths->count > 0 && generate_chance(g, 60)) {
+        *out = (struct ir_reference){paths->items[generate_below(g, paths->count)], IR_NO_INDEX};
+        return true;
+    }
     if (row->element && (named == 0 || generate_chance(g, 30))) {
-        *out = (struct ir_material_ref){
+        *out = (struct ir_reference){
             .index = ir_walk_append(g->arena, pool, g->scene, new_element(g, row->child))};
         return true;
     }
@@ -116,7 +123,7 @@ static bool make_reference(struct generator *g, const struct schema_row *row, st
         const void *item = ir_walk_item(pool, list, i);
         if (ir_walk_is_anonymous(pool->child, item) || wanted-- > 0)
             continue;
-        *out = (struct ir_material_ref){.name = ir_walk_key(pool->child, item), .index = i};
+        *out = (struct ir_reference){.name = ir_walk_key(pool->child, item), .index = i};
         return true;
     }
     return false;
@@ -202,6 +209,11 @@ static bool make_value(struct generator *g, const struct schema_row *row, void *
     case SCHEMA_PAIR: {
         const vec3 both = make_vector(g, row);
         *(struct ir_pair *)field = (struct ir_pair){both.x, both.y};
+        return true;
+    }
+    case SCHEMA_POINT: {
+        const vec3 both = make_vector(g, row);
+        *(struct ir_point *)field = (struct ir_point){both.x, both.y};
         return true;
     }
     case SCHEMA_COLOR:

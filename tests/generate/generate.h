@@ -24,7 +24,7 @@ struct generate_options {
     // Moderate values, a camera that sees the bodies, and a small picture: something to look at.
     bool renderable;
     // Files that the scene may name; without paths of a kind, nothing names one.
-    struct generate_paths meshes, images, includes;
+    struct generate_paths meshes, images, fonts, includes;
     // The materials that faces of every mesh in `meshes` use: what material_map may map from. In scenes
     // that are not renderable, map entries have any names.
     struct generate_paths mesh_materials;

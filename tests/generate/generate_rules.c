@@ -145,6 +145,11 @@ static void mend_rectangle(struct ir_rectangle *rectangle) {
         rectangle->edge_v = across(rectangle->edge_u);
 }
 
+static void mend_box(struct ir_box *box) {
+    box->center = shrink(box->center);
+    box->size = (vec3){fmin(box->size.x, FARTHEST), fmin(box->size.y, FARTHEST), fmin(box->size.z, FARTHEST)};
+}
+
 // Meshes may be of any size up to a million units.
 static void mend_model(struct ir_model *model) {
     double largest = vec3_max_abs(model->scale);
@@ -251,6 +256,10 @@ void generate_mend(struct generator *g, struct ir_scene *scene) {
     }
     for (uint32_t i = 0; i < scene->rectangles.count; i++)
         mend_rectangle(&scene->rectangles.items[i]);
+    for (uint32_t i = 0; i < scene->boxes.count; i++)
+        mend_box(&scene->boxes.items[i]);
+    for (uint32_t i = 0; i < scene->meshes.count; i++)
+        generate_mend_mesh(g, &scene->meshes.items[i]);
     for (uint32_t i = 0; i < scene->models.count; i++)
         mend_model(&scene->models.items[i]);
 }

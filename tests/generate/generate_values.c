@@ -41,6 +41,8 @@ static double moderate(struct generator *g, enum schema_range range) {
         [SCHEMA_RANGE_SHIFT] = {-1, 1},      [SCHEMA_RANGE_SIZE] = {0.2, 2},
         [SCHEMA_RANGE_OPENING] = {1, 20},    [SCHEMA_RANGE_FRAMES] = {20, 100},
         [SCHEMA_RANGE_FRAME] = {0, 20},      [SCHEMA_RANGE_RATE] = {1, 60},
+        [SCHEMA_RANGE_TURN] = {90, 360},     [SCHEMA_RANGE_TOLERANCE] = {0.01, 0.1},
+        [SCHEMA_RANGE_CORNER] = {0, 3},
     };
     double value = round(generate_between(g, bounds[range][0], bounds[range][1]) * 100) / 100;
     return range == SCHEMA_RANGE_SCALE && generate_chance(g, 20) ? -value : value;

@@ -7,6 +7,9 @@
 #include "grammar/schema.h"
 #include "tests/generate/generate.h"
 
+struct ir_mesh;
+struct ir_scene;
+
 struct generator {
     uint64_t state;
     const struct generate_options *options;
@@ -42,5 +45,7 @@ str generate_text(struct generator *g);
 
 // Mends what the table cannot say (generate_rules.c).
 void generate_mend(struct generator *g, struct ir_scene *scene);
+// generate_meshes.c: gives a mesh points and faces that make a body.
+void generate_mend_mesh(struct generator *g, struct ir_mesh *mesh);
 
 #endif

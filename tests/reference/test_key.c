@@ -21,7 +21,7 @@ struct table {
     uint64_t key[2]; // of the scene as it was made
     uint32_t changes;
     // Rows that were changed, by element of the table.
-    uint64_t changed[32];
+    uint64_t changed[64];
 };
 
 static void key_of(const struct table *t, uint64_t key[2]) {
@@ -89,7 +89,7 @@ static void try_value(struct table *t, const struct schema_element *schema, cons
     const int32_t integer = row->kind == SCHEMA_INTEGER ? *(int32_t *)field + 1 : 0;
     const unsigned word = row->kind == SCHEMA_WORD ? *(unsigned *)field + 1 : 0;
     const str text = STR("another text");
-    const struct ir_material_ref name = {STR("another name"), 0}, index = {{"", 0}, 12345};
+    const struct ir_reference name = {STR("another name"), 0}, index = {{"", 0}, 12345};
     switch (row->kind) {
     case SCHEMA_BOOLEAN:
         try_bytes(t, schema, what, field, &flipped, sizeof flipped);
@@ -110,6 +110,7 @@ static void try_value(struct table *t, const struct schema_element *schema, cons
         try_numbers(t, schema, what, field, 3);
         break;
     case SCHEMA_PAIR:
+    case SCHEMA_POINT:
         try_numbers(t, schema, what, field, 2);
         break;
     case SCHEMA_WEIGHTS:

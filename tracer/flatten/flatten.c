@@ -115,7 +115,9 @@ static enum flatten_fault make_triangles(struct flattening *f) {
 
 static enum flatten_fault make_spheres(struct flattening *f) {
     struct flat_scene *out = f->out;
-    uint32_t count = f->out->sphere_count;
+    const uint32_t count = out->sphere_count + out->cone_count;
+    if (out->cone_count)
+        out->strides.sphere = out->is_double ? FRUSTUM64_WORDS : FRUSTUM_WORDS;
     struct gpu_word *words = heap_array(heap_times((size_t)count + 1, out->strides.sphere), sizeof *words);
     struct bvh_item *items = heap_array((size_t)count + 1, sizeof *items);
     bool done = words && items;

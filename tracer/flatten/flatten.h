@@ -28,7 +28,7 @@ struct flat_array {
 
 // Words of a record of each kind, and of an entry of `normals`.
 struct flat_strides {
-    uint32_t triangle, sphere, normal, body, material, light;
+    uint32_t triangle, sphere, normal, body, material, light; // sphere: of a cone, if the scene has any
 };
 
 // Whether models that show the same mesh share its triangles (docs/decisions/instances.md). The picture is
@@ -98,9 +98,10 @@ struct flat_scene {
     struct flat_bounce *bounces; // in IR order
     uint32_t bounce_count;
     uint32_t body_count, light_count, sphere_count;
+    uint32_t cone_count;                   // in the trees of spheres
     uint32_t triangle_count;               // that the trees hold
     uint64_t shown_triangles;              // of all models: each instance shows those of its mesh
-    uint32_t *first_triangle;              // by body: the number of its first triangle
+    uint32_t *first_triangle;              // by body: the number of its first triangle, or of a cone
     uint32_t dropped_triangles;            // without area after rounding
     struct sky_size sky;                   // rows 0: the background does not light
     uint32_t sky_table;                    // as in the frame

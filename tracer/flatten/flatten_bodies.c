@@ -19,15 +19,20 @@ enum {
     PIECE = 8192,
 };
 
-// Whether its record is a sphere's; else it has triangles.
-static bool is_sphere(const struct scene_body *body) {
+// Whether its record lies among the spheres; else it has triangles.
+static bool is_round(const struct scene_body *body) {
     switch (shape_traits(body->shape).items) {
     case SHAPE_BALL:
+    case SHAPE_CONE:
         return true;
     case SHAPE_TRIANGLES:
         break;
     }
     return false;
+}
+
+static bool is_cone(const struct scene_body *body) {
+    return shape_traits(body->shape).items == SHAPE_CONE;
 }
 
 // ---- counting and measuring
@@ -39,12 +44,13 @@ enum flatten_fault flatten_count(struct flattening *f) {
     for (uint32_t i = 0; i < f->scene->body_count; i++) {
         const struct scene_body *body = &f->scene->bodies[i];
         f->out->first_triangle[i] = (uint32_t)total;
-        f->out->sphere_count += is_sphere(body);
-        total += body->triangle_count;
+        f->out->sphere_count += is_round(body) && !is_cone(body);
+        f->out->cone_count += is_cone(body);
+        total += is_cone(body) ? 1 : body->triangle_count;
     }
     // The limits of a fault's number, and of item numbers (flatten_instances.c).
     _Static_assert(SCENE_ITEMS_MAX < FAULT_NESTED, "");
-    f->triangle_total = (uint32_t)total;
+    f->triangle_total = (uint32_t)total - f->out->cone_count;
     return FLATTEN_DONE;
 }
 
@@ -96,8 +102,13 @@ static enum flatten_fault measure_mesh(const struct flattening *f, const struct 
 
 static double measure_body(const struct flattening *f, const struct scene_body *body) {
     affine3 map = flatten_map(f, body);
-    if (is_sphere(body))
+    if (is_round(body) && !is_cone(body))
         return vec3_max_abs(map.offset) + body->radius;
+    if (is_cone(body)) {
+        vec3 lower, upper;
+        scene_body_bounds(body, &map, &lower, &upper);
+        return fmax(vec3_max_abs(lower), vec3_max_abs(upper));
+    }
     double extent = 0;
     for (uint32_t i = 0; i < body->triangle_count; i++) {
         vec3 corners[3];
@@ -156,20 +167,54 @@ static vec3 rounded3(const struct flattening *f, vec3 v) {
     return (vec3){rounded(f, v.x), rounded(f, v.y), rounded(f, v.z)};
 }
 
+static struct bvh_item put_sphere(struct flattening *f, const struct scene_body *body,
+                                  struct gpu_sphere record, uint32_t place, struct gpu_word *words) {
+    record.center = rounded3(f, vec3_mul(flatten_map(f, body).offset, f->factor));
+    record.radius = rounded(f, body->radius * f->factor);
+    gpu_pack_sphere(&record, f->out->is_double, words);
+    return bvh_sphere_item(record.center, record.radius, f->out->is_double, place);
+}
+
+static struct bvh_item put_cone(struct flattening *f, const struct scene_body *body,
+                                struct gpu_frustum record, uint32_t place, struct gpu_word *words) {
+    const affine3 map = flatten_map(f, body);
+    const bool turned = body->radius_to < body->radius;
+    const vec3 axis = mat3_column(map.linear, 1);
+    const vec3 to = vec3_add(map.offset, vec3_mul(axis, body->height));
+    record.base = rounded3(f, vec3_mul(turned ? to : map.offset, f->factor));
+    record.axis = rounded3(f, turned ? vec3_neg(axis) : axis);
+    record.height = rounded(f, body->height * f->factor);
+    record.radius = rounded(f, fmin(body->radius, body->radius_to) * f->factor);
+    record.slope = rounded(f, fabs(body->radius_to - body->radius) / body->height);
+    record.shade |= FRUSTUM_SHADE | (turned ? FRUSTUM_TURNED : 0);
+    gpu_pack_frustum(&record, f->out->is_double, words);
+    const struct scene_body as_stored = {.shape = SCENE_CONE,
+                                         .radius = record.radius,
+                                         .radius_to = record.radius + record.slope * record.height,
+                                         .height = record.height};
+    const affine3 place_of = {{{{0, record.axis.x, 0}, {0, record.axis.y, 0}, {0, record.axis.z, 0}}},
+                              record.base};
+    vec3 lower, upper;
+    scene_body_bounds(&as_stored, &place_of, &lower, &upper);
+    return bvh_box_item(lower, upper, f->out->is_double, place);
+}
+
 void flatten_spheres(struct flattening *f, struct gpu_word *words, struct bvh_item *items) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < f->scene->body_count; i++) {
         const struct scene_body *body = &f->scene->bodies[i];
-        if (!is_sphere(body))
+        if (!is_round(body))
             continue;
-        vec3 center = vec3_mul(flatten_map(f, body).offset, f->factor);
-        struct gpu_sphere record = {.center = rounded3(f, center),
-                                    .radius = rounded(f, body->radius * f->factor),
-                                    .body = i,
-                                    .shade =
-                                        material_flags(f, scene_body_material(body, 0)) | TRIANGLE_SOLID};
-        gpu_pack_sphere(&record, f->out->is_double, words + f->out->strides.sphere * (size_t)count);
-        items[count] = bvh_sphere_item(record.center, record.radius, f->out->is_double, count);
+        const uint32_t shade = material_flags(f, scene_body_material(body, 0)) | TRIANGLE_SOLID;
+        struct gpu_word *to = words + f->out->strides.sphere * (size_t)count;
+        if (is_cone(body))
+            items[count] = put_cone(
+                f, body,
+                (struct gpu_frustum){
+                    .body = i, .shade = shade, .number = f->out->sphere_count + f->out->first_triangle[i]},
+                count, to);
+        else
+            items[count] = put_sphere(f, body, (struct gpu_sphere){.body = i, .shade = shade}, count, to);
         count++;
     }
 }

@@ -50,7 +50,7 @@ struct flattening {
     const struct scene *scene;
     struct flat_scene *out;
     double factor;           // 2^out->scale_exponent
-    uint32_t triangle_total; // of all bodies, including those without area: what triangle numbers count
+    uint32_t triangle_total; // of all bodies, including those without area
     struct sharing sharing;
     // The items of the tree, body by body, without the triangles that have no area. Records are made after
     // the tree is built, so that both are never in memory.

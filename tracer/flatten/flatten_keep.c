@@ -54,6 +54,7 @@ void flatten_keep(struct flattening *f) {
     out->uses = before->uses;
     out->use_count = before->use_count;
     out->sphere_count = before->sphere_count;
+    out->cone_count = before->cone_count;
     out->triangle_count = before->triangle_count;
     out->shown_triangles = before->shown_triangles;
     out->dropped_triangles = before->dropped_triangles;

@@ -315,11 +315,12 @@ void flatten_features(struct flattening *f) {
                          FEATURE_POINT_LIGHT | FEATURE_DIRECTION_LIGHT | FEATURE_INVERSE_SQUARE |
                          FEATURE_BACKGROUND_IMAGE | FEATURE_MEDIA | FEATURE_ATTENUATION | FEATURE_TEXTURES |
                          FEATURE_FOOTPRINT | FEATURE_SOFT_LIGHT | FEATURE_AMBIENT | FEATURE_OCCLUSION |
-                         FEATURE_EMISSION | FEATURE_SKY_LIGHT | FEATURE_SEEN_LIGHT;
+                         FEATURE_EMISSION | FEATURE_SKY_LIGHT | FEATURE_SEEN_LIGHT | FEATURE_CONES;
     struct flat_scene *out = f->out;
     uint64_t mask = ir_features(f->scene->ir) & FEATURE_SCENE_MASK & ~own;
     mask |= out->triangle_count ? FEATURE_TRIANGLES : 0;
     mask |= out->sphere_count ? FEATURE_SPHERES : 0;
+    mask |= out->cone_count ? FEATURE_CONES : 0;
     mask |= out->normals.count ? FEATURE_SMOOTH : 0;
     mask |= out->background ? FEATURE_BACKGROUND_IMAGE : 0;
     mask |= used_material_features(f);

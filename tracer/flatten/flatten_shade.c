@@ -27,12 +27,12 @@ static void put_map(const struct flattening *f, const struct scene_body *body, s
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++)
             own.linear.m[i][k] /= f->factor;
-    record->row_x = mat3_row(own.linear, 0);
-    record->row_y = mat3_row(own.linear, 1);
-    record->row_z = mat3_row(own.linear, 2);
-    record->offset_x = own.offset.x;
-    record->offset_y = own.offset.y;
-    record->offset_z = own.offset.z;
+    record->row_x = vec3_mul(mat3_row(own.linear, 0), body->cells.x);
+    record->row_y = vec3_mul(mat3_row(own.linear, 1), body->cells.y);
+    record->row_z = vec3_mul(mat3_row(own.linear, 2), body->cells.z);
+    record->offset_x = own.offset.x * body->cells.x;
+    record->offset_y = own.offset.y * body->cells.y;
+    record->offset_z = own.offset.z * body->cells.z;
 }
 
 static void put_edge_lengths(const struct scene_body *body, struct gpu_body *record) {
@@ -51,7 +51,8 @@ enum flatten_fault flatten_body_records(struct flattening *f) {
                                   .instance = f->out->instance_of[i]};
         if (f->medium)
             record.medium = f->medium[i];
-        if (has_checker(f->scene, body)) {
+        const bool is_cone = shape_traits(body->shape).items == SHAPE_CONE; // its frame, for images
+        if (has_checker(f->scene, body) || is_cone) {
             if (shape_traits(body->shape).is_flat)
                 put_edge_lengths(body, &record);
             else

@@ -171,6 +171,8 @@ static void note_size(const struct scene_body *body, const struct precision_body
                                      .part = PRECISION_SPHERE_PART,
                                      .distance = measured->reach,
                                      .body = measured->body};
+    if (shape_traits(body->shape).items == SHAPE_CONE)
+        size.length = fmin(fmax(body->radius, body->radius_to), body->height);
     if (body->mesh) {
         size.length = vec3_length(vec3_sub(measured->upper, measured->lower));
         size.part = PRECISION_MODEL_PART;

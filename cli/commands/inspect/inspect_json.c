@@ -75,7 +75,7 @@ static void put_models(struct json_writer *w, const struct session *s) {
             continue;
         json_open_object(w, NULL);
         json_write_text(w, "name", model->name);
-        json_write_text(w, "mesh", model->mesh);
+        json_write_text(w, "mesh", model->mesh.name.len ? model->mesh.name : mesh->path);
         json_write_integer(w, "triangles", mesh->triangle_count);
         json_write_boolean(w, "closed", mesh->closed);
         json_write_integer(w, "open_edges", mesh->open_edges);

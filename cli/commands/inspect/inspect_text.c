@@ -53,8 +53,9 @@ static void meshes(struct strbuf *out, const struct session *s) {
         const struct ir_model *model = &s->scene->models.items[i];
         if (!mesh)
             continue;
+        const str shown = model->mesh.name.len ? model->mesh.name : mesh->path;
         strbuf_format(out, "  %.*s%s%.*s: %u triangles, %s", STR_ARG(model->name),
-                      model->name.len ? ", " : "", STR_ARG(model->mesh), mesh->triangle_count,
+                      model->name.len ? ", " : "", STR_ARG(shown), mesh->triangle_count,
                       mesh->closed ? "closed" : "open");
         if (!mesh->closed)
             strbuf_format(out, " (%u edges, the first at %s %u of the mesh)", mesh->open_edges,

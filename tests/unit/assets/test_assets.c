@@ -185,7 +185,7 @@ static void poisoned_paths_are_passed_over(void **state) {
     struct assets_scene *s = begin_in(f, NULL);
     struct ir_model *model = add_model(f, s, "dragn.obj");
     model->head.poisoned = UINT64_C(1) << schema_find_row(&SCHEMA_MODEL, STR("mesh"));
-    add_model(f, s, "")->mesh = STR("");
+    add_model(f, s, "")->mesh.name = STR("");
     assets_scene_load(s);
     assert_silent(s);
     assert_null(s->assets.models[0].mesh);

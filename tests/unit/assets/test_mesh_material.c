@@ -249,7 +249,7 @@ static void map_then_material_then_file_then_default(void **state) {
     for (int i = 0; i < 4; i++) {
         struct ir_model *model = assets_scene_model(s, "mesh.obj");
         if (i & 1)
-            model->material = (struct ir_material_ref){STR("stone"), stone};
+            model->material = (struct ir_reference){STR("stone"), stone};
         if (i & 2) {
             struct ir_map_entry *entry = ARENA_PUSH(&s->arena, &model->material_map);
             *entry = (struct ir_map_entry){.from = STR("gold"), .to = {STR("brass"), brass}};

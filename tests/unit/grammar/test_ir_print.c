@@ -175,7 +175,7 @@ static void test_anonymous_materials_are_inlined(void **state) {
     sphere->material.index = 0;
     wrote(&SCHEMA_SPHERE, sphere, "material");
     sphere = add_sphere(kit);
-    sphere->material = (struct ir_material_ref){STR("used"), 1};
+    sphere->material = (struct ir_reference){STR("used"), 1};
     wrote(&SCHEMA_SPHERE, sphere, "material");
     assert_yaml(kit, "glint: 1\n\nmaterials:\n  used: {}\n\nspheres:\n"
                      "  - {center: [0, 1, -2.5], radius: 2, material: {refractive_index: 1.5}}\n"

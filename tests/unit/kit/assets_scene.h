@@ -91,7 +91,7 @@ static inline uint32_t assets_scene_place(struct assets_scene *s, const struct s
 static inline struct ir_model *assets_scene_model(struct assets_scene *s, const char *mesh) {
     struct ir_model *model = ARENA_PUSH(&s->arena, &s->scene.models);
     schema_init(&SCHEMA_MODEL, model);
-    model->mesh = str_from(mesh);
+    model->mesh = (struct ir_reference){str_from(mesh), IR_NO_INDEX};
     model->material.index = IR_NO_INDEX;
     model->head.origin = assets_scene_place(s, &SCHEMA_MODEL, "mesh", mesh);
     return model;

@@ -15,6 +15,8 @@ void kit_init(struct kit *kit) {
     kit->scene.materials.items = ARENA_ARRAY(&kit->arena, struct ir_material, KIT_MAX);
     kit->scene.spheres.items = ARENA_ARRAY(&kit->arena, struct ir_sphere, KIT_MAX);
     kit->scene.rectangles.items = ARENA_ARRAY(&kit->arena, struct ir_rectangle, KIT_MAX);
+    kit->scene.cylinders.items = ARENA_ARRAY(&kit->arena, struct ir_cylinder, KIT_MAX);
+    kit->scene.cones.items = ARENA_ARRAY(&kit->arena, struct ir_cone, KIT_MAX);
     kit->scene.models.items = ARENA_ARRAY(&kit->arena, struct ir_model, KIT_MAX);
     kit->assets.materials = ARENA_ARRAY(&kit->arena, struct ir_material, KIT_MAX + 1);
     kit->assets.models = ARENA_ARRAY(&kit->arena, struct assets_model, KIT_MAX);
@@ -51,6 +53,24 @@ struct ir_rectangle *kit_rectangle(struct kit *kit) {
     return rectangle;
 }
 
+struct ir_cylinder *kit_cylinder(struct kit *kit) {
+    struct ir_cylinder *cylinder = &kit->scene.cylinders.items[kit->scene.cylinders.count++];
+    schema_init(&SCHEMA_CYLINDER, cylinder);
+    cylinder->to = (vec3){0, 1, 0};
+    cylinder->radius = 1;
+    cylinder->material.index = IR_NO_INDEX;
+    return cylinder;
+}
+
+struct ir_cone *kit_cone(struct kit *kit) {
+    struct ir_cone *cone = &kit->scene.cones.items[kit->scene.cones.count++];
+    schema_init(&SCHEMA_CONE, cone);
+    cone->to = (vec3){0, 1, 0};
+    cone->radius_from = 1;
+    cone->material.index = IR_NO_INDEX;
+    return cone;
+}
+
 struct ir_model *kit_model(struct kit *kit, struct mesh *mesh) {
     uint32_t i = kit->scene.models.count++;
     struct ir_model *model = &kit->scene.models.items[i];
@@ -69,7 +89,7 @@ struct view_light *kit_light(struct kit *kit, vec3 position) {
     return light;
 }
 
-void kit_use_material(struct ir_material_ref *ref, uint32_t index) {
+void kit_use_material(struct ir_reference *ref, uint32_t index) {
     ref->index = index;
 }
 

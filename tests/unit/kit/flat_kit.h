@@ -31,10 +31,12 @@ void kit_finish(struct kit *kit);
 struct ir_material *kit_material(struct kit *kit);
 struct ir_sphere *kit_sphere(struct kit *kit);
 struct ir_rectangle *kit_rectangle(struct kit *kit);
+struct ir_cylinder *kit_cylinder(struct kit *kit);
+struct ir_cone *kit_cone(struct kit *kit);
 struct ir_model *kit_model(struct kit *kit, struct mesh *mesh);
 struct view_light *kit_light(struct kit *kit, vec3 position);
 // The materials in use: the scene's, then the default one.
-void kit_use_material(struct ir_material_ref *ref, uint32_t index);
+void kit_use_material(struct ir_reference *ref, uint32_t index);
 void kit_model_material(struct kit *kit, uint32_t model, uint32_t index);
 
 // A mesh of one group, from triples of indices, each position used.

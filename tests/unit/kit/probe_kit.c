@@ -67,6 +67,7 @@ bool probe_init_way(struct probe *probe, struct gpu *gpu, const struct flat_scen
     const uint32_t constants[CONSTANT_COUNT] = {
         [CONSTANT_FEATURES] =
             (uint32_t)(flat->features & (FEATURE_TRIANGLES | FEATURE_SPHERES | FEATURE_SMOOTH)),
+        [CONSTANT_MORE_FEATURES] = (uint32_t)((flat->features & FEATURE_CONES) >> 32),
         [CONSTANT_TRIANGLE_STACK] = levels(flat->triangle_depth),
         [CONSTANT_SPHERE_STACK] = levels(flat->sphere_depth),
         [CONSTANT_PACKED_GROUPS] = packed,

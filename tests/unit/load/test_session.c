@@ -177,13 +177,13 @@ static void expect_rebased(struct fixture *f, const char *out, const char *mesh,
     f->options.path = str_from(scratch_path(&f->scratch, "scenes/paths.yaml"));
     assert_int_equal(session_load_text(&f->session, &f->options), SESSION_LOADED);
     assert_true(session_rebase(&f->session, str_from(scratch_path(&f->scratch, out))));
-    str got = f->session.scene->models.items[0].mesh;
+    str got = f->session.scene->models.items[0].mesh.name;
     if (!str_equal_cstr(got, mesh))
         fail_msg("%s: %.*s is not %s", out, STR_ARG(got), mesh);
     assert_int_equal(f->session.sink.warnings, warnings);
     // What lies nowhere, and what lies somewhere for sure, stays.
-    assert_true(str_equal_cstr(f->session.scene->models.items[1].mesh, "none.obj"));
-    assert_true(str_equal_cstr(f->session.scene->models.items[2].mesh, "/none.obj"));
+    assert_true(str_equal_cstr(f->session.scene->models.items[1].mesh.name, "none.obj"));
+    assert_true(str_equal_cstr(f->session.scene->models.items[2].mesh.name, "/none.obj"));
     session_finish(&f->session);
 }
 

@@ -81,10 +81,10 @@ static bool is_value(const struct schema_row *row) {
 }
 
 static uint32_t components(const struct schema_row *row) {
-    return row->kind == SCHEMA_WEIGHTS  ? 4
-           : row->kind == SCHEMA_VECTOR ? 3
-           : row->kind == SCHEMA_PAIR   ? 2
-                                        : 1;
+    return row->kind == SCHEMA_WEIGHTS                             ? 4
+           : row->kind == SCHEMA_VECTOR                            ? 3
+           : row->kind == SCHEMA_PAIR || row->kind == SCHEMA_POINT ? 2
+                                                                   : 1;
 }
 
 // Whether a field is another than before that is not a mask.

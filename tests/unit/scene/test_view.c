@@ -96,7 +96,7 @@ static void angles_are_exact_to_an_ulp(void **state) {
 static void a_model_is_scaled_then_turned_then_moved(void **state) {
     (void)state;
     struct ir_model model = {.scale = {2, 3, -4}, .rotation = {0, 0, 90}, .translation = {10, 20, 30}};
-    affine3 place = transform_of_model(&model);
+    affine3 place = transform_of(model.scale, model.rotation, model.translation);
     assert_exact(affine3_apply(place, (vec3){1, 0, 0}), 10, 22, 30);
     assert_exact(affine3_apply(place, (vec3){0, 1, 0}), 7, 20, 30);
     assert_exact(affine3_apply(place, (vec3){0, 0, 1}), 10, 20, 26);

@@ -306,12 +306,11 @@ static void test_normals(void **state) {
                 vec3 normal = word_vec3(&flat.normals.words[base + 3 * i + k]);
                 assert_true(fabs(vec3_length(normal) - 1) < 1e-6);
                 assert_true(vec3_dot(normal, vec3_unit(face)) > 0.8);
-                // The inverse transpose of R S is R S^-1, and R S is at hand.
-                affine3 map = transform_of_model(&kit.scene.models.items[body]);
-                vec3 scale = kit.scene.models.items[body].scale;
+                const struct ir_model *ir = &kit.scene.models.items[body];
+                affine3 map = transform_of(ir->scale, ir->rotation, ir->translation);
                 vec3 m = of_mesh[3 * i + (body && k ? 3 - k : k)];
-                vec3 expected = {m.x / (scale.x * scale.x), m.y / (scale.y * scale.y),
-                                 m.z / (scale.z * scale.z)};
+                vec3 expected = {m.x / (ir->scale.x * ir->scale.x), m.y / (ir->scale.y * ir->scale.y),
+                                 m.z / (ir->scale.z * ir->scale.z)};
                 expected = vec3_unit(mat3_apply(map.linear, expected));
                 assert_true(vec3_length(vec3_sub(normal, expected)) < 1e-6);
             }
@@ -426,7 +425,8 @@ static void test_doubles_stay(void **state) {
     kit_light(&kit, (vec3){0.1, 0.7, 0.3});
     flatten_ok(&kit, &flat);
     const double factor = ldexp(1, flat.scale_exponent);
-    const affine3 map = transform_of_model(&kit.scene.models.items[0]);
+    const struct ir_model *ir = &kit.scene.models.items[0];
+    const affine3 map = transform_of(ir->scale, ir->rotation, ir->translation);
     for (uint32_t k = 0; k < 3; k++) {
         vec3 vertex = kit_vertex(&flat, kit_find_triangle(&flat, 3), (int)k);
         vec3 place = affine3_apply(map, tetra_positions[tetra_faces[3][k]]);
