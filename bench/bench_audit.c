@@ -89,7 +89,7 @@ static bool draw(struct taken *t, const struct bench *bench) {
     settings.width = bench->width;
     settings.height = bench->height;
     settings.samples = 1;
-    settings.features |= FEATURE_SCENE_MASK;
+    settings.features |= FEATURE_GENERAL;
     struct render_statistics statistics;
     struct renderer *renderer = renderer_create(bench->gpu, &flat, &settings);
     const bool good = renderer && renderer_render(renderer, &t->view.camera, t->image.rgb, NULL,

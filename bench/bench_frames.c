@@ -148,7 +148,7 @@ static bool measure_group(const struct bench *bench, const struct bench_scene *s
         settings[i].height = contestants[i].height;
         settings[i].samples = contestants[i].samples;
         settings[i].counts = contestants[i].counts;
-        settings[i].features = contestants[i].general ? FEATURE_SCENE_MASK : scene->settings.features;
+        settings[i].features = scene->settings.features | (contestants[i].general ? FEATURE_GENERAL : 0);
         done = bench_glint_open(&glints[i], bench->gpu, scene, &settings[i], contestants[i].is_double) &&
                bench_glint_warm(&glints[i], bench->gpu);
     }

@@ -61,7 +61,7 @@ static bool check_scene(struct picture_kit *kit, const char *yaml) {
     struct image first;
     struct picture_options small = {.width = 64, .height = 48, .samples = 1};
     struct picture_options general = small;
-    general.more_features = FEATURE_SCENE_MASK;
+    general.more_features = FEATURE_GENERAL;
     bool good = twin_path(yaml, xml, sizeof xml) && picture_take(kit, yaml, &small, &first);
     if (!good) {
         fprintf(stderr, "%s: no picture\n", yaml);

@@ -112,7 +112,7 @@ static enum sweep_status trace_device(struct judging *j, struct flat_input *inpu
     struct render_settings settings = render_settings_of(j->scene, &gains->flat, j->input->limits);
     settings.width = j->input->width;
     settings.height = j->input->height;
-    settings.features |= FEATURE_SCENE_MASK;
+    settings.features |= FEATURE_GENERAL;
     struct render_statistics statistics;
     bool good;
     if (gains->renderer)
@@ -149,7 +149,7 @@ static enum sweep_status judge_pictures(struct judging *j) {
                                           .height = j->input->height,
                                           .samples = (uint32_t)j->scene->ir->image.samples,
                                           .gpu = j->input->gpu,
-                                          .features = FEATURE_SCENE_MASK};
+                                          .features = FEATURE_GENERAL};
     const enum precision_status tried = precision_try(&trial, &choice, &gains);
     if (tried != PRECISION_DONE)
         return tried == PRECISION_MEMORY  ? SWEEP_MEMORY

@@ -36,7 +36,7 @@ static struct render_settings settings_of(const struct measuring *s, const struc
     r.alternative = setting->alternative;
     r.features = flat->features & ~without_features(setting->without, &s->input->view->camera);
     if (setting->general)
-        r.features |= FEATURE_SCENE_MASK;
+        r.features |= FEATURE_GENERAL;
     return r;
 }
 

@@ -169,7 +169,7 @@ static void other_kinds_are_named(void **state) {
     expect(f, "a.dae", "meshes of the kind '.dae' are not supported [E605]", "can convert");
     expect(f, "a.txt", "meshes of the kind '.txt' are not supported [E605]",
            "glint reads Wavefront OBJ (.obj), PLY");
-    expect(f, "a", "'a' has no extension that shows its kind [E605]", "glint reads");
+    expect(f, "./a", "'a' has no extension that shows its kind [E605]", "glint reads");
 }
 
 static void unreadable_files_say_why(void **state) {

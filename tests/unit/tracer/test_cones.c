@@ -32,7 +32,7 @@ struct frustum {
 
 static double field(const struct flat_scene *flat, uint32_t word, uint32_t component, uint32_t word64,
                     uint32_t part64) {
-    const unsigned char *words = (const unsigned char *)flat->spheres.words;
+    const unsigned char *words = (const unsigned char *)flat->spheres.words; // before a probe takes them
     double value;
     float single;
     memcpy(&value, words + 16 * word64 + 4 * part64, sizeof value);
@@ -285,8 +285,8 @@ static void check(void **state, struct shape shape, bool is_double, double scale
     cone->radius_to = shape.radius_to * scale;
     kit.origin = vec3_add(from, vec3_mul(random_direction(&seed), away * reach * scale));
     assert_true(kit_flatten(&kit, &flat));
-    assert_true(probe_init(&probe, fixture->device.gpu, &flat, true));
     const struct aim aim = {frustum_of(&flat), is_double, is_double ? 0x1p-53 : 0x1p-24};
+    assert_true(probe_init(&probe, fixture->device.gpu, &flat, true));
     struct counts n = {0};
     for (uint64_t batch = 0; batch < batches; batch++) {
         for (uint64_t i = 0; i < batch_rays; i++)
