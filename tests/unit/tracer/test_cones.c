@@ -32,12 +32,15 @@ struct frustum {
 
 static double field(const struct flat_scene *flat, uint32_t word, uint32_t component, uint32_t word64,
                     uint32_t part64) {
-    const unsigned char *words = (const unsigned char *)flat->spheres.words; // before a probe takes them
+    const unsigned char *words = (const unsigned char *)flat->spheres.words;
     double value;
     float single;
-    memcpy(&value, words + 16 * word64 + 4 * part64, sizeof value);
+    if (flat->is_double) {
+        memcpy(&value, words + 16 * word64 + 4 * part64, sizeof value);
+        return value;
+    }
     memcpy(&single, words + 16 * word + 4 * component, sizeof single);
-    return flat->is_double ? value : (double)single;
+    return (double)single;
 }
 
 static struct frustum frustum_of(const struct flat_scene *flat) {
