@@ -81,6 +81,18 @@ static bool is_motion(const struct schema_element *schema) {
     return schema == &SCHEMA_ANIMATION || schema == &SCHEMA_TRACK || schema == &SCHEMA_KEYFRAME;
 }
 
+// What a mesh of the scene is made of: random points are not shapes (tests/unit/assets makes those).
+static bool is_made(const struct schema_element *schema) {
+    const struct schema_element *const made[] = {&SCHEMA_MESH,  &SCHEMA_LATHE,   &SCHEMA_OUTLINE_POINT,
+                                                 &SCHEMA_TORUS, &SCHEMA_EXTRUDE, &SCHEMA_HOLE,
+                                                 &SCHEMA_FACES, &SCHEMA_VERTEX,  &SCHEMA_UV,
+                                                 &SCHEMA_FACE,  &SCHEMA_CORNER,  &SCHEMA_MESH_TEXT};
+    for (size_t i = 0; i < sizeof made / sizeof *made; i++)
+        if (schema == made[i])
+            return true;
+    return false;
+}
+
 static bool is_asked_for(const struct bench *b, const struct schema_element *schema,
                          const struct schema_row *row) {
     char whole[256];
@@ -96,7 +108,7 @@ static void list_uses(struct bench *b) {
         for (uint32_t k = 0; k < schema_elements[i]->row_count && !is_motion(schema_elements[i]); k++) {
             const struct schema_element *schema = schema_elements[i];
             const struct schema_row *row = &schema->rows[k];
-            const bool asked = is_light(row) && is_asked_for(b, schema, row);
+            const bool asked = is_light(row) && !is_made(schema) && is_asked_for(b, schema, row);
             const uint32_t components = !asked ? 0 : row->kind == SCHEMA_WEIGHTS ? 4 : 1;
             for (uint32_t c = 0; c < components && b->count < ROWS_MAX; c++)
                 b->uses[b->count++] = (struct use){.schema = schema, .row = row, .component = c};
