@@ -127,7 +127,8 @@ const str *ir_walk_path(const struct schema_row *row, const void *element) {
     if (row->kind != SCHEMA_REFERENCE || row->file == SCHEMA_FILE_NONE)
         return NULL;
     const str *name = &((const struct ir_reference *)field)->name;
-    return name->len && (memchr(name->ptr, '.', name->len) || memchr(name->ptr, '/', name->len)) ? name : NULL;
+    return name->len && (memchr(name->ptr, '.', name->len) || memchr(name->ptr, '/', name->len)) ? name
+                                                                                                 : NULL;
 }
 
 static void walk_paths(const struct schema_element *schema, void *element, ir_walk_visit_path *visit,

@@ -98,8 +98,8 @@
 #define FEATURE_SCENE_MASK                                                                                   \
     (FEATURE_ALL &                                                                                           \
      ~(FEATURE_SLICES | FEATURE_COUNTERS | FEATURE_LONG_RAYS | FEATURE_MANY_LIGHTS | FEATURE_BEGINS))
-/* Of those, what a kernel may have whether the scene asks for it or not; with cones the records of spheres have
-   another layout. */
+/* Of those, what a kernel may have whether the scene asks for it or not; with cones the records of spheres
+   have another layout. */
 #define FEATURE_GENERAL (FEATURE_SCENE_MASK & ~FEATURE_CONES)
 #endif
 
