@@ -137,8 +137,7 @@ static bool make_any(struct making *m, const struct made_to *to) {
 
 static void make(void *context) {
     struct making *m = context;
-    const struct made_to to = {m->scratch, m->loader->input->limits->value[LIMIT_MESH_TRIANGLES],
-                               .coordinates = true};
+    const struct made_to to = {m->scratch, m->loader->input->limits->value[LIMIT_MESH_TRIANGLES]};
     if (!make_any(m, &to))
         return;
     m->made.polygons.is_binary = true;

@@ -53,22 +53,6 @@ static void close_along_axis(struct closing *c, struct arena *arena) {
     }
 }
 
-static void find_box(struct ends *ends, const struct closing *c) {
-    struct ir_pair lower = c->nodes[0], upper = lower;
-    for (uint32_t i = 1; i < c->node_count; i++) {
-        lower = (struct ir_pair){fmin(lower.u, c->nodes[i].u), fmin(lower.v, c->nodes[i].v)};
-        upper = (struct ir_pair){fmax(upper.u, c->nodes[i].u), fmax(upper.v, c->nodes[i].v)};
-    }
-    ends->lower = lower;
-    ends->size = plane_sub(upper, lower);
-}
-
-struct ir_pair ends_box_place(const struct ends *ends, struct ir_pair at) {
-    const struct ir_pair from = plane_sub(at, ends->lower);
-    return (struct ir_pair){ends->size.u > 0 ? from.u / ends->size.u : 0,
-                            ends->size.v > 0 ? from.v / ends->size.v : 0};
-}
-
 void ends_cut(struct ends *ends, const struct path *path, bool is_ring, struct arena *arena) {
     struct closing c = {0};
     take_path(&c, path, is_ring, arena);
@@ -80,8 +64,9 @@ void ends_cut(struct ends *ends, const struct path *path, bool is_ring, struct a
                             .edges = c.edges,
                             .edge_count = c.edge_count,
                             .may_touch = true};
-    *ends = (struct ends){0};
-    find_box(ends, &c);
+    *ends = (struct ends){.nodes = c.nodes, .box = PLANE_BOX_EMPTY};
+    for (uint32_t i = 0; i < c.node_count; i++)
+        plane_include(&ends->box, c.nodes[i]);
     if (region_cut(&region) != REGION_FINE)
         return;
     for (uint32_t t = 0; t < region.triangle_count; t++)

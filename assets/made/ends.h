@@ -12,11 +12,10 @@
 struct ends {
     uint32_t (*triangles)[3]; // into nodes
     uint32_t triangle_count;
-    struct ir_pair lower, size; // the box of the nodes
+    struct ir_pair *nodes;
+    struct plane_box box; // of the nodes
 };
 
 void ends_cut(struct ends *ends, const struct path *path, bool is_ring, struct arena *arena);
-// Where a point is in the box: 0 to 1.
-struct ir_pair ends_box_place(const struct ends *ends, struct ir_pair at);
 
 #endif

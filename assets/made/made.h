@@ -4,7 +4,7 @@
 //
 // Input: one of the structs below. Coordinates are those of the mesh: any unit, y upwards, at most
 // MESH_COORDINATE_MAX. Output: struct made. Its polygons have the normals of the true surface at every corner
-// (a model that is not smooth ignores them) and, on request, texture coordinates. Faces point outward where
+// (a model that is not smooth ignores them) and texture coordinates. Faces point outward where
 // the body is closed. The same input gives the same bits.
 //
 // Curved surfaces become facets. `tolerance` is the greatest distance from the facets to the true surface, as
@@ -76,7 +76,6 @@ struct made_fault {
 struct made_to {
     struct arena *arena;
     uint64_t triangles_most; // more is MADE_TRIANGLES, before memory is taken for them; 0 only counts
-    bool coordinates;        // fills made.textured
 };
 
 struct made {

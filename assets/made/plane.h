@@ -34,6 +34,16 @@ static inline bool plane_before(struct ir_pair a, struct ir_pair b) {
     return a.u < b.u || (a.u == b.u && a.v < b.v);
 }
 
+struct plane_box {
+    struct ir_pair lower, upper;
+};
+// Contains nothing.
+#define PLANE_BOX_EMPTY ((struct plane_box){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}})
+static inline void plane_include(struct plane_box *box, struct ir_pair at) {
+    box->lower = (struct ir_pair){fmin(box->lower.u, at.u), fmin(box->lower.v, at.v)};
+    box->upper = (struct ir_pair){fmax(box->upper.u, at.u), fmax(box->upper.v, at.v)};
+}
+
 double plane_distance(struct ir_pair a, struct ir_pair b);
 // From `a` towards `b`, of length 1; (0, 0) if they are the same point.
 struct ir_pair plane_direction(struct ir_pair a, struct ir_pair b);

@@ -26,7 +26,7 @@ struct building {
     struct shell shell;
     struct band bands[BANDS_MOST];
     uint32_t band_count;
-    struct ir_pair lower, size; // the box of the places that sides use
+    struct plane_box box; // of the places that sides use
 };
 
 // ---- vertices
@@ -103,28 +103,6 @@ static void add_side(struct building *b, const struct band *band, uint32_t side)
 
 // ---- ends
 
-static void find_box(struct building *b) {
-    struct ir_pair lower = {INFINITY, INFINITY}, upper = {-INFINITY, -INFINITY};
-    for (uint32_t i = 0; i < b->region->side_count; i++) {
-        const struct ir_pair at = b->region->places[b->region->sides[i].from];
-        lower = (struct ir_pair){fmin(lower.u, at.u), fmin(lower.v, at.v)};
-        upper = (struct ir_pair){fmax(upper.u, at.u), fmax(upper.v, at.v)};
-    }
-    b->lower = lower;
-    b->size = plane_sub(upper, lower);
-}
-
-static uint32_t add_box_coordinates(struct building *b, const struct ir_pair *points, uint32_t count) {
-    uint32_t first = IR_NO_INDEX;
-    for (uint32_t i = 0; i < count; i++) {
-        const struct ir_pair at = plane_sub(points[i], b->lower);
-        const uint32_t coordinate = shell_coordinate(&b->shell, b->size.u > 0 ? at.u / b->size.u : 0,
-                                                     b->size.v > 0 ? at.v / b->size.v : 0);
-        first = i == 0 ? coordinate : first;
-    }
-    return first;
-}
-
 static void add_end(struct building *b, const struct region *cap, uint32_t ring, uint32_t coordinates,
                     bool up) {
     const uint32_t normal = shell_normal(&b->shell, (vec3){0, 0, up ? 1 : -1});
@@ -133,8 +111,7 @@ static void add_end(struct building *b, const struct region *cap, uint32_t ring,
         for (uint32_t k = 0; k < 3; k++) {
             const uint32_t place = cap->triangles[t][up ? k : 2 - k];
             const uint32_t point = cap == &b->inset ? cap->first_at[place] : place;
-            corners[k] = (struct shell_corner){
-                ring + point, normal, coordinates == IR_NO_INDEX ? IR_NO_INDEX : coordinates + point};
+            corners[k] = (struct shell_corner){ring + point, normal, coordinates + point};
         }
         shell_face(&b->shell, corners, 3);
     }
@@ -144,7 +121,7 @@ static void add_ends(struct building *b, const struct region *cap) {
     const bool is_inset = cap == &b->inset;
     const struct ir_pair *points = is_inset ? cap->points : cap->places;
     const uint32_t count = is_inset ? cap->point_count : cap->place_count;
-    const uint32_t coordinates = add_box_coordinates(b, points, count);
+    const uint32_t coordinates = shell_box_coordinates(&b->shell, &b->box, points, count);
     add_end(b, cap, b->bands[0].bottom, coordinates, false);
     add_end(b, cap, b->bands[b->band_count - 1].top, coordinates, true);
 }
@@ -181,7 +158,9 @@ bool prism_build(const struct prism *prism, const struct made_to *to, struct mad
         return false;
     shell_begin(&b.shell, to, out, quads + ends, 4 * quads + 3 * ends);
     link_back(&b, to->arena);
-    find_box(&b);
+    b.box = PLANE_BOX_EMPTY;
+    for (uint32_t i = 0; i < b.region->side_count; i++)
+        plane_include(&b.box, b.region->places[b.region->sides[i].from]);
     add_bands(&b);
     for (uint32_t band = 0; band < b.band_count; band++)
         for (uint32_t side = 0; side < b.region->side_count; side++)

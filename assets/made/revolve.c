@@ -108,23 +108,20 @@ struct rim {
 static struct rim make_rim(struct revolving *r, uint32_t node, struct ir_pair along, double length) {
     const struct ir_pair normal = {along.v * r->out_sign, -along.u * r->out_sign};
     const double v = length / r->in->path->length;
-    struct rim rim = {along, node, 0, IR_NO_INDEX, node_at(r, node).u == 0};
+    const struct rim rim = {along, node, r->shell.out->polygons.normals.count,
+                            r->shell.out->textured.coordinates.count, node_at(r, node).u == 0};
     const uint32_t count = rim.is_pole ? r->columns : r->columns + 1;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t half = rim.is_pole ? 2 * i + 1 : 2 * i;
-        const uint32_t at = shell_normal(&r->shell, turned(r, normal, half));
-        const uint32_t coordinate = shell_coordinate(&r->shell, half / (2.0 * r->columns), v);
-        if (i == 0) {
-            rim.normal = at;
-            rim.coordinate = coordinate;
-        }
+        shell_normal(&r->shell, turned(r, normal, half));
+        shell_coordinate(&r->shell, half / (2.0 * r->columns), v);
     }
     return rim;
 }
 
 static struct shell_corner corner_of(const struct revolving *r, const struct rim *rim, uint32_t column) {
     return (struct shell_corner){vertex_at(r, rim->node, column), rim->normal + column,
-                                 rim->coordinate == IR_NO_INDEX ? IR_NO_INDEX : rim->coordinate + column};
+                                 rim->coordinate + column};
 }
 
 static void add_column(struct revolving *r, const struct rim *from, const struct rim *to, uint32_t column) {
@@ -165,18 +162,12 @@ static void add_end(struct revolving *r, const struct ends *ends, uint32_t colum
     const struct vec3_turn turn = r->turns[2 * column];
     const double sign = column == 0 ? 1 : -1;
     const uint32_t normal = shell_normal(&r->shell, (vec3){sign * turn.sine, 0, sign * turn.cosine});
-    uint32_t first = IR_NO_INDEX;
-    for (uint32_t i = 0; i < r->node_count; i++) {
-        const struct ir_pair at = ends_box_place(ends, node_at(r, i));
-        const uint32_t coordinate = shell_coordinate(&r->shell, at.u, at.v);
-        first = i == 0 ? coordinate : first;
-    }
+    const uint32_t first = shell_box_coordinates(&r->shell, &ends->box, ends->nodes, r->node_count);
     for (uint32_t t = 0; t < ends->triangle_count; t++) {
         struct shell_corner corners[3];
         for (uint32_t k = 0; k < 3; k++) {
             const uint32_t node = ends->triangles[t][column == 0 ? k : 2 - k];
-            corners[k] = (struct shell_corner){vertex_at(r, node, column), normal,
-                                               first == IR_NO_INDEX ? IR_NO_INDEX : first + node};
+            corners[k] = (struct shell_corner){vertex_at(r, node, column), normal, first + node};
         }
         shell_face(&r->shell, corners, 3);
     }

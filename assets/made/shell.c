@@ -10,8 +10,6 @@ void shell_begin(struct shell *shell, const struct made_to *to, struct made *out
     p->corners.items = ARENA_ARRAY(to->arena, struct polygon_corner, corners);
     p->corners.capacity = (uint32_t)corners;
     *ARENA_PUSH(to->arena, &p->groups) = (struct mesh_group){.name = STR("")};
-    if (!to->coordinates)
-        return;
     out->textured.corners.items = ARENA_ARRAY(to->arena, struct textured_corner, corners);
     out->textured.corners.capacity = (uint32_t)corners;
     out->textured.faces.items = ARENA_ARRAY(to->arena, uint32_t, faces);
@@ -46,26 +44,33 @@ uint32_t shell_normal(struct shell *shell, vec3 normal) {
 
 uint32_t shell_coordinate(struct shell *shell, double u, double v) {
     struct textured_faces *t = &shell->out->textured;
-    if (!shell->to->coordinates)
-        return IR_NO_INDEX;
     MAKE_ROOM(shell, &t->coordinates);
     t->coordinates.items[t->coordinates.count] = (struct ir_pair){u, v};
     return t->coordinates.count++;
 }
 
+uint32_t shell_box_coordinates(struct shell *shell, const struct plane_box *box, const struct ir_pair *points,
+                               uint32_t count) {
+    const struct ir_pair size = plane_sub(box->upper, box->lower);
+    const uint32_t first = shell->out->textured.coordinates.count;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct ir_pair at = plane_sub(points[i], box->lower);
+        shell_coordinate(shell, size.u > 0 ? at.u / size.u : 0, size.v > 0 ? at.v / size.v : 0);
+    }
+    return first;
+}
+
 void shell_face(struct shell *shell, const struct shell_corner *corners, uint32_t count) {
     struct polygons *p = &shell->out->polygons;
     struct textured_faces *t = &shell->out->textured;
-    if (shell->to->coordinates)
-        t->faces.items[t->faces.count++] = p->corners.count;
+    t->faces.items[t->faces.count++] = p->corners.count;
     p->faces.items[p->faces.count] =
         (struct polygon_face){.first = p->corners.count, .line = p->faces.count + 1};
     p->faces.count++;
     for (uint32_t i = 0; i < count; i++) {
         p->corners.items[p->corners.count++] = (struct polygon_corner){corners[i].vertex, corners[i].normal};
-        if (shell->to->coordinates)
-            t->corners.items[t->corners.count++] =
-                (struct textured_corner){corners[i].vertex, corners[i].coordinate};
+        t->corners.items[t->corners.count++] =
+            (struct textured_corner){corners[i].vertex, corners[i].coordinate};
     }
     p->triangle_count += count - 2;
 }

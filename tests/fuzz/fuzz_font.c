@@ -32,7 +32,7 @@ struct input {
 static void run(void *context) {
     struct input *in = context;
     static const str texts[] = {{"A", 1}, {"H", 1}, {"AH\nHA", 5}, {"AAA HHH", 7}};
-    const struct made_to to = {&in->arena, TRIANGLES_MOST, in->options & 16};
+    const struct made_to to = {&in->arena, TRIANGLES_MOST};
     const struct made_text text = {.text = texts[in->options & 3],
                                    .font = in->font,
                                    .height = 1,

@@ -109,7 +109,7 @@ static void build_torus(struct input *in, const struct made_to *to) {
 
 static void run(void *context) {
     struct input *in = context;
-    const struct made_to to = {&in->arena, TRIANGLES_MOST, in->options & 4};
+    const struct made_to to = {&in->arena, TRIANGLES_MOST};
     void (*const builders[])(struct input *, const struct made_to *) = {build_lathe, build_extrude,
                                                                         build_faces, build_torus};
     builders[in->kind % 4](in, &to);

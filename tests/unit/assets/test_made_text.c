@@ -206,7 +206,7 @@ struct small {
 
 static void run_small(void *context) {
     const struct small *small = context;
-    const struct made_to to = {small->arena, UINT32_MAX, true};
+    const struct made_to to = {small->arena, UINT32_MAX};
     const struct made_text text = text_of(small->font, "Gauge");
     made_build_text(&text, &to, &kit.made);
 }

@@ -29,7 +29,7 @@ static inline struct made_to made_kit_to(struct made_kit *kit) {
     kit->mesh = (struct mesh){0};
     arena_init(&kit->arena, SIZE_MAX / 4);
     arena_init(&kit->mesh.arena, SIZE_MAX / 4);
-    return (struct made_to){&kit->arena, UINT32_MAX, true};
+    return (struct made_to){&kit->arena, UINT32_MAX};
 }
 
 static inline void made_kit_finish(struct made_kit *kit) {
