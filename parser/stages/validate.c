@@ -8,6 +8,7 @@
 #include "core/number.h"
 #include "core/ranges.h"
 #include "grammar/ir.h"
+#include "grammar/ir_walk.h"
 
 #include <math.h>
 #include <string.h>
@@ -435,22 +436,12 @@ void validate_element(struct loader *loader, const struct schema_element *schema
 void validate_scene(struct loader *loader, const struct ir_scene *scene) {
     struct rules rules = {loader->input->sink, &loader->output->origin, &loader->scratch};
     validate_element(loader, &SCHEMA_IMAGE, &scene->image);
-    for (uint32_t i = 0; i < scene->cameras.count; i++)
-        validate_element(loader, &SCHEMA_CAMERA, &scene->cameras.items[i]);
     check_seen(&rules, &scene->lights);
-    for (uint32_t i = 0; i < scene->lights.count; i++)
-        validate_element(loader, &SCHEMA_LIGHT, &scene->lights.items[i]);
-    for (uint32_t i = 0; i < scene->spheres.count; i++)
-        validate_element(loader, &SCHEMA_SPHERE, &scene->spheres.items[i]);
-    for (uint32_t i = 0; i < scene->rectangles.count; i++)
-        validate_element(loader, &SCHEMA_RECTANGLE, &scene->rectangles.items[i]);
-    for (uint32_t i = 0; i < scene->boxes.count; i++)
-        validate_element(loader, &SCHEMA_BOX, &scene->boxes.items[i]);
-    for (uint32_t i = 0; i < scene->cylinders.count; i++)
-        validate_element(loader, &SCHEMA_CYLINDER, &scene->cylinders.items[i]);
-    for (uint32_t i = 0; i < scene->cones.count; i++)
-        validate_element(loader, &SCHEMA_CONE, &scene->cones.items[i]);
-    for (uint32_t i = 0; i < scene->models.count; i++)
-        validate_element(loader, &SCHEMA_MODEL, &scene->models.items[i]);
+    for (uint32_t row = 0; row < SCHEMA_SCENE.row_count; row++) {
+        const struct schema_row *r = &SCHEMA_SCENE.rows[row];
+        const struct ir_any_list list = ir_walk_list(r, scene);
+        for (uint32_t i = 0; i < list.count; i++)
+            validate_element(loader, r->child, ir_walk_item(r, list, i));
+    }
     arena_finish(&loader->scratch);
 }
