@@ -223,12 +223,9 @@ static bool is_some_inside(const struct pair *p, const struct lint_body *body, c
     return some;
 }
 
-static enum relation meshes(const struct pair *p) {
-    bool all_a, all_b;
-    if (cut_each_other(p))
-        return CROSSES;
-    const bool a_in_b = is_some_inside(p, p->a, p->b, &all_a), b_in_a = is_some_inside(p, p->b, p->a, &all_b);
-    // Water whose surface lies in the wall of its glass: the other side of the wall is in the water.
+// Whether points of one body, or all of them, are inside the other. Water whose surface lies in the wall of
+// its glass: the other side of the wall is in the water.
+static enum relation by_points(bool a_in_b, bool all_a, bool b_in_a, bool all_b) {
     if (a_in_b && b_in_a)
         return CROSSES;
     if (a_in_b)
@@ -236,6 +233,14 @@ static enum relation meshes(const struct pair *p) {
     if (b_in_a)
         return all_b ? AROUND : CROSSES;
     return APART;
+}
+
+static enum relation meshes(const struct pair *p) {
+    bool all_a, all_b;
+    if (cut_each_other(p))
+        return CROSSES;
+    const bool a_in_b = is_some_inside(p, p->a, p->b, &all_a), b_in_a = is_some_inside(p, p->b, p->a, &all_b);
+    return by_points(a_in_b, all_a, b_in_a, all_b);
 }
 
 // ---- cones
@@ -297,13 +302,7 @@ static bool has_inside(const struct pair *p, const struct lint_body *of, const s
 static enum relation cone_and_other(const struct pair *p) {
     bool all_a, all_b;
     const bool a_in_b = has_inside(p, p->a, p->b, &all_a), b_in_a = has_inside(p, p->b, p->a, &all_b);
-    if (a_in_b && b_in_a)
-        return CROSSES;
-    if (a_in_b)
-        return all_a ? INSIDE : CROSSES;
-    if (b_in_a)
-        return all_b ? AROUND : CROSSES;
-    return APART;
+    return by_points(a_in_b, all_a, b_in_a, all_b);
 }
 
 // ---- pairs

@@ -3,6 +3,7 @@
 // Rays through a grid over the picture find spheres, rectangles and cones, and each triangle of a mesh counts
 // with the pixels that it covers. What lies in front of a body is left out: it covers fine parts and coarse
 // ones alike.
+#include "core/angle.h"
 #include "diag/codes/rule.h"
 #include "lint/lint_internal.h"
 
@@ -102,14 +103,13 @@ static void own_axes(const struct scene_body *body, struct spot *s) {
 
 // Longitude and latitude, as the sphere's coordinates.
 static void sphere_change(const struct bare *bare, double radius, struct spot *s) {
-    static const double TURN = 6.283185307179586477;
     const vec3 o = vec3_unit(s->normal);
     const double around2 = fmax(o.x * o.x + o.z * o.z, 1e-12), around = sqrt(around2);
     const vec3 up = {-o.x * o.y, around2, -o.z * o.y};
     if (!bare->image)
         return;
-    s->change[0] = vec3_mul((vec3){-o.z, 0, o.x}, 1 / (around2 * TURN * radius));
-    s->change[1] = vec3_mul(up, 2 / (around * TURN * radius));
+    s->change[0] = vec3_mul((vec3){-o.z, 0, o.x}, 1 / (around2 * 2 * PI * radius));
+    s->change[1] = vec3_mul(up, 2 / (around * 2 * PI * radius));
     s->change[2] = (vec3){0, 0, 0};
 }
 
@@ -130,7 +130,6 @@ static bool meet_sphere(const struct looking *l, struct view_ray ray, struct spo
 // As docs/language.md has a cone's coordinates.
 static void cone_change(const struct bare *bare, const struct scene_body *body, vec3 from, bool side,
                         bool at_to, struct spot *s) {
-    static const double TURN = 6.283185307179586477;
     const mat3 *frame = &body->object_to_world.linear;
     const vec3 x = mat3_column(*frame, 0), y = mat3_column(*frame, 1), z = mat3_column(*frame, 2);
     const double a = vec3_dot(x, from), b = vec3_dot(z, from);
@@ -139,7 +138,7 @@ static void cone_change(const struct bare *bare, const struct scene_body *body, 
     own_axes(body, s);
     if (!bare->image)
         return;
-    s->change[0] = side ? vec3_mul(vec3_sub(vec3_mul(z, a), vec3_mul(x, b)), 1 / (around2 * TURN))
+    s->change[0] = side ? vec3_mul(vec3_sub(vec3_mul(z, a), vec3_mul(x, b)), 1 / (around2 * 2 * PI))
                         : vec3_mul(x, 0.5 / radius);
     s->change[1] = side ? vec3_mul(y, 1 / body->height) : vec3_mul(z, (at_to ? -0.5 : 0.5) / radius);
     s->change[2] = (vec3){0, 0, 0};

@@ -135,8 +135,8 @@ vec3 reference_checker_place(const struct scene_body *body, const struct surface
     case SCENE_SPHERE:
         break;
     case SCENE_CONE: // a disc shows the cells just inside it
-        arm.y += reference_face(s) == REFERENCE_FROM ? body->height * 0x1p-16
-                 : reference_face(s) == REFERENCE_TO ? body->height * -0x1p-16
+        arm.y += reference_face(s) == REFERENCE_FROM ? body->height * SCENE_CELLS_WITHIN
+                 : reference_face(s) == REFERENCE_TO ? body->height * -SCENE_CELLS_WITHIN
                                                      : 0;
         break;
     case SCENE_PARALLELOGRAM:

@@ -26,10 +26,6 @@ struct building {
     uint32_t *material; // the next place for a body's one material
 };
 
-// A box whose edges are a whole number of cells has its faces where cells meet. A checker counts by edges
-// that are shorter by this share, so that a face shows the cells behind it.
-#define CELLS_WITHIN 0x1p-16
-
 static struct scene_body *add(struct building *b, const struct schema_element *element, uint32_t index,
                               const struct ir_head *head, str name) {
     struct scene_body *body = &b->scene->bodies[b->scene->body_count++];
@@ -78,7 +74,7 @@ static void add_box(struct building *b, uint32_t i) {
     const struct ir_box *ir = &b->scene->ir->boxes.items[i];
     struct scene_body *body = add(b, &SCHEMA_BOX, i, &ir->head, ir->name);
     body->shape = SCENE_MESH;
-    body->cells = vec3_mul(ir->size, 1 - CELLS_WITHIN);
+    body->cells = vec3_mul(ir->size, 1 - SCENE_CELLS_WITHIN);
     take_material(b, body, &ir->material);
     take_mesh(body, scene_box_mesh());
     scene_body_place(body, transform_of(ir->size, ir->rotation, ir->center), 0);

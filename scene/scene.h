@@ -22,6 +22,10 @@ enum {
     SCENE_LEVELS_MAX = 24
 };
 
+// A face in the plane between two layers of a checker's cells shows those inside the body: a checker looks by
+// this share of the body's size below the faces of a box and the discs of a cone (CONE_INSET of the device).
+#define SCENE_CELLS_WITHIN 0x1p-16
+
 // How a body is intersected.
 enum scene_shape {
     SCENE_SPHERE,
