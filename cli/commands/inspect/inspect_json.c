@@ -46,6 +46,7 @@ static void put_counts(struct json_writer *w, const struct session *s) {
     json_write_integer(w, "materials", named);
     json_write_integer(w, "inline_materials", scene->materials.count - named);
     json_write_integer(w, "used_materials", s->assets.material_count);
+    json_write_integer(w, "meshes", scene->meshes.count);
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
         const struct schema_row *row = &SCHEMA_SCENE.rows[i];
         if (scene_is_body(row->child))

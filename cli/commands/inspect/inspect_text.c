@@ -26,6 +26,8 @@ static void counts(struct strbuf *out, const struct session *s) {
     strbuf_format(out, "cameras     %u\nlights      %u\n", scene->cameras.count, scene->lights.count);
     strbuf_format(out, "materials   %u named, %u inline, %u used in all, including those of meshes\n", named,
                   scene->materials.count - named, s->assets.material_count);
+    if (scene->meshes.count)
+        strbuf_format(out, "meshes      %u described by the scene\n", scene->meshes.count);
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
         const struct schema_row *row = &SCHEMA_SCENE.rows[i];
         if (scene_is_body(row->child))
