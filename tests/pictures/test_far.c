@@ -4,9 +4,9 @@
 //
 // Usage: test_far WIDTH HEIGHT SCENE...
 #include "picture_kit.h"
+#include "scene_map.h"
 
 #include "core/number.h"
-#include "grammar/ir.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -38,28 +38,14 @@ static double moved(double value, double by) {
     return strtod(sum, NULL);
 }
 
-static void move_point(vec3 *p, const struct change *c) {
+static void move_point(vec3 *p, const void *context) {
+    const struct change *c = context;
     *p = (vec3){moved(p->x, c->move.x), moved(p->y, c->move.y), moved(p->z, c->move.z)};
 }
 
 static void change_scene(struct ir_scene *scene, void *context) {
     const struct change *c = context;
-    for (uint32_t i = 0; i < scene->cameras.count; i++) {
-        move_point(&scene->cameras.items[i].position, c);
-        move_point(&scene->cameras.items[i].look_at, c);
-    }
-    for (uint32_t i = 0; i < scene->lights.count; i++) {
-        if (scene->lights.items[i].kind == IR_LIGHT_POSITION)
-            move_point(&scene->lights.items[i].position, c);
-        if (scene->lights.items[i].kind == IR_LIGHT_RECTANGLE)
-            move_point(&scene->lights.items[i].rectangle.corner, c);
-    }
-    for (uint32_t i = 0; i < scene->spheres.count; i++)
-        move_point(&scene->spheres.items[i].center, c);
-    for (uint32_t i = 0; i < scene->rectangles.count; i++)
-        move_point(&scene->rectangles.items[i].corner, c);
-    for (uint32_t i = 0; i < scene->models.count; i++)
-        move_point(&scene->models.items[i].translation, c);
+    scene_map_apply(scene, &(struct scene_map){.point = move_point, .context = c});
     if (c->precision != IR_PRECISION_AUTO)
         scene->trace.precision = c->precision;
 }

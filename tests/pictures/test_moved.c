@@ -4,8 +4,7 @@
 //
 // Usage: test_moved SCENE...
 #include "picture_kit.h"
-
-#include "grammar/ir.h"
+#include "scene_map.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,64 +16,31 @@ struct change {
     unsigned precision;
 };
 
-static void change_point(vec3 *p, const struct change *c) {
+static void change_point(vec3 *p, const void *context) {
+    const struct change *c = context;
     *p = (vec3){scalbn(p->x, c->scale_exponent) + c->move.x, scalbn(p->y, c->scale_exponent) + c->move.y,
                 scalbn(p->z, c->scale_exponent) + c->move.z};
 }
 
-static void change_length(double *length, const struct change *c) {
+static void change_length(double *length, const void *context) {
+    const struct change *c = context;
     *length = scalbn(*length, c->scale_exponent);
 }
 
-static void change_vector(vec3 *v, const struct change *c) {
+static void change_vector(vec3 *v, const void *context) {
+    const struct change *c = context;
     *v = vec3_mul(*v, scalbn(1, c->scale_exponent));
 }
 
-static void change_lights(struct ir_scene *scene, const struct change *c) {
-    for (uint32_t i = 0; i < scene->lights.count; i++) {
-        struct ir_light *light = &scene->lights.items[i];
-        if (light->kind == IR_LIGHT_POSITION)
-            change_point(&light->position, c);
-        change_length(&light->radius, c);
-        if (light->kind == IR_LIGHT_RECTANGLE) {
-            change_point(&light->rectangle.corner, c);
-            change_vector(&light->rectangle.edge_u, c);
-            change_vector(&light->rectangle.edge_v, c);
-        }
-        if (light->falloff == IR_FALLOFF_INVERSE_SQUARE)
-            light->intensity = scalbn(light->intensity, 2 * c->scale_exponent);
-    }
-}
-
-// Cells of spheres and rectangles are measured in scene units, those of models in the mesh's. The scenes
-// here give no checker to two bodies.
-static void change_checker(struct ir_scene *scene, uint32_t material, const struct change *c) {
-    if (material != IR_NO_INDEX)
-        change_length(&scene->materials.items[material].diffuse_color.checker.size, c);
-}
-
+// The scenes here give no checker to two bodies.
 static void change_scene(struct ir_scene *scene, void *context) {
     const struct change *c = context;
     scene->trace.precision = c->precision;
-    for (uint32_t i = 0; i < scene->cameras.count; i++) {
-        change_point(&scene->cameras.items[i].position, c);
-        change_point(&scene->cameras.items[i].look_at, c);
-    }
-    change_lights(scene, c);
-    for (uint32_t i = 0; i < scene->spheres.count; i++) {
-        change_point(&scene->spheres.items[i].center, c);
-        change_length(&scene->spheres.items[i].radius, c);
-        change_checker(scene, scene->spheres.items[i].material.index, c);
-    }
-    for (uint32_t i = 0; i < scene->rectangles.count; i++) {
-        change_point(&scene->rectangles.items[i].corner, c);
-        change_vector(&scene->rectangles.items[i].edge_u, c);
-        change_vector(&scene->rectangles.items[i].edge_v, c);
-        change_checker(scene, scene->rectangles.items[i].material.index, c);
-    }
-    for (uint32_t i = 0; i < scene->models.count; i++) {
-        change_point(&scene->models.items[i].translation, c);
-        change_vector(&scene->models.items[i].scale, c);
+    scene_map_apply(scene, &(struct scene_map){change_point, change_vector, change_length, c});
+    for (uint32_t i = 0; i < scene->lights.count; i++) {
+        struct ir_light *light = &scene->lights.items[i];
+        if (light->falloff == IR_FALLOFF_INVERSE_SQUARE)
+            light->intensity = scalbn(light->intensity, 2 * c->scale_exponent);
     }
 }
 
