@@ -17,7 +17,7 @@ cd "$folder"
 suite=bookworm
 kind=deb-src
 . "$here/tools/apt_apart.sh"
-(cd sources && apt-get source -qq libyaml expat jansson zlib libpng1.6 libjpeg-turbo xxhash >../sources.log 2>&1) || {
+(cd sources && apt-get source -qq libyaml expat jansson zlib libpng1.6 libjpeg-turbo xxhash freetype >../sources.log 2>&1) || {
     cat sources.log
     exit 1
 }
@@ -93,4 +93,12 @@ sed -i -E 's/^#define +((UPSAMPLE_MERGING|QUANT_1PASS|QUANT_2PASS|IDCT_SCALING|D
     sources/libjpeg-turbo-*/jmorecfg.h
 library sources/libjpeg-turbo-* -DWITH_SIMD=OFF -DWITH_TURBOJPEG=OFF -DWITH_ARITH_ENC=OFF -DWITH_ARITH_DEC=OFF -DENABLE_SHARED=OFF \
     -DCMAKE_INSTALL_LIBDIR="$folder/root/lib" -DHAVE_SIZE_T=TRUE -DSIZE_T=4 -DHAVE_UNSIGNED_LONG=TRUE -DUNSIGNED_LONG=4 # its own look at a program finds none
+# FreeType with what glint asks it for: outlines of TrueType and OpenType files, without hints.
+for module in 'FT_Driver_ClassRec, tt_driver_class' 'FT_Driver_ClassRec, cff_driver_class' 'FT_Module_Class, psaux_module_class' \
+    'FT_Module_Class, sfnt_module_class'; do
+    echo "FT_USE_MODULE( $module )"
+done >"$(ls -d sources/freetype-*)/include/freetype/config/ftmodule.h"
+sed -i -E 's/^#define +((FT_CONFIG_OPTION_(USE_(LZW|ZLIB)|ENVIRONMENT_PROPERTIES|SUBPIXEL_RENDERING|POSTSCRIPT_NAMES|ADOBE_GLYPH_LIST|MAC_FONTS|GUESSING_EMBEDDED_RFORK|INCREMENTAL|SVG))|TT_CONFIG_OPTION_(POSTSCRIPT_NAMES|EMBEDDED_BITMAPS|COLOR_LAYERS|BYTECODE_INTERPRETER|SUBPIXEL_HINTING|GX_VAR_SUPPORT|BDF))\>.*//' \
+    sources/freetype-*/include/freetype/config/ftoption.h
+library "$(ls -d sources/freetype-*)" -DFT_DISABLE_ZLIB=ON -DFT_DISABLE_BZIP2=ON -DFT_DISABLE_PNG=ON -DFT_DISABLE_HARFBUZZ=ON -DFT_DISABLE_BROTLI=ON
 rm -rf apt build sources sources.log build-*.log libpng.dfa

@@ -151,7 +151,11 @@ static void mend_box(struct ir_box *box) {
 }
 
 // Meshes may be of any size up to a million units.
-static void mend_model(struct ir_model *model) {
+static void mend_model(struct ir_model *model, bool renderable) {
+    if (renderable && model->mesh.index != IR_NO_INDEX) { // a mesh of the scene: it names no materials
+        model->material_map.count = 0;
+        model->head.written &= ~(UINT64_C(1) << schema_find_row(&SCHEMA_MODEL, STR("material_map")));
+    }
     double largest = vec3_max_abs(model->scale);
     if (largest > 1e6) {
         model->scale.x = copysign(fmin(fabs(model->scale.x), 1e6), model->scale.x);
@@ -261,5 +265,5 @@ void generate_mend(struct generator *g, struct ir_scene *scene) {
     for (uint32_t i = 0; i < scene->meshes.count; i++)
         generate_mend_mesh(g, &scene->meshes.items[i]);
     for (uint32_t i = 0; i < scene->models.count; i++)
-        mend_model(&scene->models.items[i]);
+        mend_model(&scene->models.items[i], framed);
 }
