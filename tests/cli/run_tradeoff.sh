@@ -150,7 +150,7 @@ expect "the numeric part of these is rounding" 0 - - awk -F, -v n="$(column nume
     $2 ~ /^"error/ { rows++; if ($n > 0.0005) { print $2, $n; bad = 1 } }
     END { exit bad || rows < 5 }' study.csv
 # Lights that rays see: the 33rd feature.
-expect "a study of lights that are seen" 0 - - "$glint" tradeoff "$source/scenes/elements/seen_lights.glint.yaml" -q \
+expect "a study of lights that are seen" 0 "" - "$glint" tradeoff "$source/scenes/elements/seen_lights.glint.yaml" -q \
     --size 12x8 --samples 2 --budget 1000 --format csv -o seen.html
 cp out.txt seen.csv
 expect "a study has every feature of its scene" 0 - - awk -F, -v n="$(column numeric seen.csv)" '

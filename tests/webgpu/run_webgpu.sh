@@ -24,7 +24,7 @@ if [ -n "${5:-}" ] && cmp -s "$source/web/page/package-lock.json" "$GLINT_PAGE_M
 fi
 cp "$source/web/page/worker.js" "$source/tests/webgpu/index.html" "$work/page"
 
-scenes="elements/spheres language/transfer_srgb elements/seen_lights language/nested language/sky_light"
+scenes="elements/spheres elements/cylinders language/transfer_srgb elements/seen_lights language/nested language/sky_light"
 [ "${WEBGPU_SCENES:-}" != all ] || scenes=$(cd "$source/scenes" && find . -name '*.glint.yaml' ! -path '*/parts/*' | sed 's/^..//; s/.glint.yaml$//' | sort)
 mkdir scenes
 sed '/^glint: 1/a trace: {precision: double}' "$source/scenes/elements/spheres.glint.yaml" >scenes/double.glint.yaml

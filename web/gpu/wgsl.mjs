@@ -29,6 +29,7 @@ const EXPRESSIONS = {
   174: (a, b) => `(${a} >= ${b})`, 176: (a, b) => `(${a} < ${b})`, 178: (a, b) => `(${a} <= ${b})`, 194: (a, b) => `(${a} >> ${b})`, 196: (a, b) => `(${a} << ${b})`,
   197: (a, b) => `(${a} | ${b})`, 198: (a, b) => `(${a} ^ ${b})`, 199: (a, b) => `(${a} & ${b})`,
 };
+const ARITHMETIC = new Set([128, 130, 132, 134, 137, 197, 198, 199]); // on whole numbers: SPIR-V asks for no signs that agree
 
 const bytes = fs.readFileSync(source);
 const words = new Uint32Array(bytes.buffer, bytes.byteOffset, bytes.length / 4);
@@ -61,6 +62,7 @@ for (const [op, id, decoration, binding] of code) if (op === DECORATE && decorat
 // ---- constants: their names, and what stands for them
 
 const values = new Map(); // by id: its text as an operand of an expression
+const kinds = new Map(); // by id: u32, i32, ...
 const named = []; // {id, name, type, text}: in order, each after those it needs
 const lengths = new Map(); // by id of a constant: the id of a plain one that takes its place
 let workgroup = null;
@@ -73,6 +75,7 @@ const name = (id, type, text, given) => {
 for (const [op, ...words] of code) {
   const [typeId, id] = words;
   const type = types.get(typeId);
+  if (type) kinds.set(id, type);
   const plain = (bits) => (type === 'bool' ? [bits ? TRUE : FALSE, typeId, id] : [CONSTANT, typeId, id, bits]);
   if (op === CAPABILITY && isFloatControl(typeId)) continue;
   if (op === EXTENSION && String.fromCharCode(...new Uint8Array(new Uint32Array(words).buffer)).startsWith('SPV_KHR_float_controls')) continue;
@@ -85,8 +88,8 @@ for (const [op, ...words] of code) {
     name(id, type, literal(type, bits), `glint_${specIds.get(id)}k`);
     out.push(plain(bits));
   } else if (op === SPEC_OP) {
-    const operands = words.slice(3).map((one) => values.get(one));
-    if (!type || !EXPRESSIONS[words[2]] || operands.includes(undefined)) throw new Error(`operation ${words[2]} on specialization constants`);
+    const operands = words.slice(3).map((one) => (ARITHMETIC.has(words[2]) && kinds.get(one) !== type ? `${type}(${values.get(one)})` : values.get(one)));
+    if (!type || !EXPRESSIONS[words[2]] || words.slice(3).some((one) => !values.has(one))) throw new Error(`operation ${words[2]} on specialization constants`);
     name(id, type, EXPRESSIONS[words[2]](...operands));
     out.push(plain(1));
   } else if (op === SPEC_COMPOSITE) {
