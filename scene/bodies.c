@@ -103,6 +103,16 @@ static void add_cone(struct building *b, uint32_t i) {
     add_frustum(b, body, ir->from, ir->to, ir->radius_from, ir->radius_to, &ir->material);
 }
 
+// A flat mesh has no inside: it shows the cells on one side.
+static void set_cells(struct scene_body *body, const struct mesh *mesh) {
+    const vec3 size = vec3_sub(mesh->upper, mesh->lower);
+    const double most = vec3_max_abs(size) * SCENE_CELLS_WITHIN;
+    body->cells = (vec3){1 - SCENE_CELLS_WITHIN, 1 - SCENE_CELLS_WITHIN, 1 - SCENE_CELLS_WITHIN};
+    body->cells_offset = vec3_mul(vec3_add(mesh->lower, mesh->upper), SCENE_CELLS_WITHIN / 2);
+    body->cells_offset = vec3_add(
+        body->cells_offset, (vec3){size.x > 0 ? 0 : most, size.y > 0 ? 0 : most, size.z > 0 ? 0 : most});
+}
+
 static void add_model(struct building *b, uint32_t i) {
     const struct ir_model *ir = &b->scene->ir->models.items[i];
     const struct assets *assets = b->scene->assets;
@@ -112,6 +122,8 @@ static void add_model(struct building *b, uint32_t i) {
     if (i < assets->model_count && assets->models[i].mesh) {
         body->materials = assets->models[i].group_material;
         take_mesh(body, assets->models[i].mesh);
+        if (body->mesh->is_made)
+            set_cells(body, body->mesh);
     }
     scene_body_place(body, transform_of(ir->scale, ir->rotation, ir->translation), 0);
 }

@@ -23,7 +23,8 @@ enum {
 };
 
 // A face in the plane between two layers of a checker's cells shows those inside the body: a checker looks by
-// this share of the body's size below the faces of a box and the discs of a cone (CONE_INSET of the device).
+// this share of the body's size below the faces of a box, the discs of a cone (CONE_INSET of the device) and
+// the faces that bound a mesh of the scene.
 #define SCENE_CELLS_WITHIN 0x1p-16
 
 // How a body is intersected.
@@ -50,8 +51,9 @@ struct scene_body {
     affine3 object_to_world;
     double radius;            // of a sphere; of a cone that at 'from'
     double radius_to, height; // of a cone
-    vec3 cells; // lengths by which a checker counts its cells, per unit of object space: of a box its edges,
-                // nearly; else 1
+    // Where a checker counts its cells, from object space: of a box by the lengths of its edges, nearly;
+    // else 1.
+    vec3 cells, cells_offset;
     const struct mesh *mesh;   // NULL: another shape, or not loaded
     const uint32_t *materials; // by group: indices into scene.materials
     uint32_t group_count;      // 1 except for meshes

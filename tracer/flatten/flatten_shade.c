@@ -30,9 +30,9 @@ static void put_map(const struct flattening *f, const struct scene_body *body, s
     record->row_x = vec3_mul(mat3_row(own.linear, 0), body->cells.x);
     record->row_y = vec3_mul(mat3_row(own.linear, 1), body->cells.y);
     record->row_z = vec3_mul(mat3_row(own.linear, 2), body->cells.z);
-    record->offset_x = own.offset.x * body->cells.x;
-    record->offset_y = own.offset.y * body->cells.y;
-    record->offset_z = own.offset.z * body->cells.z;
+    record->offset_x = own.offset.x * body->cells.x + body->cells_offset.x;
+    record->offset_y = own.offset.y * body->cells.y + body->cells_offset.y;
+    record->offset_z = own.offset.z * body->cells.z + body->cells_offset.z;
 }
 
 static void put_edge_lengths(const struct scene_body *body, struct gpu_body *record) {
