@@ -10,6 +10,8 @@
 // Usage: test_attributes WORK_FOLDER [ROW]...
 // A ROW is the name of one, as "roughness", of all elements that have it, or "material.roughness"; none: all
 // rows. Seed by seed a line says how many are proven.
+#include "bench_files.h"
+
 #include "files/output.h"
 #include "grammar/ir.h"
 #include "grammar/ir_walk.h"
@@ -138,12 +140,8 @@ static vec3 other_vector(const struct schema_row *row, vec3 v) {
     return vec3_add(v, (vec3){0.8 * size, size, -0.6 * size});
 }
 
-// Files that the bench writes.
-static const str meshes[] = {{"octahedron.obj", sizeof "octahedron.obj" - 1},
-                             {"wedge.obj", sizeof "wedge.obj" - 1}};
-
 static bool other_mesh(struct ir_reference *ref) {
-    *ref = (struct ir_reference){meshes[str_equal(ref->name, meshes[0])], IR_NO_INDEX};
+    *ref = (struct ir_reference){bench_meshes[str_equal(ref->name, bench_meshes[0])], IR_NO_INDEX};
     return true;
 }
 
@@ -422,44 +420,6 @@ static void try_rows(struct bench *b, const struct schema_element *schema, void 
     }
 }
 
-// A picture of a few colours as background: bands that a rotation moves.
-static bool write_sky(const struct bench *b) {
-    char path[PATH_BYTES];
-    struct image sky;
-    struct strbuf file;
-    snprintf(path, sizeof path, "%s/sky.hdr", b->work);
-    if (!image_init(&sky, 16, 8))
-        return false;
-    for (size_t i = 0; i < value_count(&sky); i++)
-        sky.rgb[i] = (float)((i / 3 * 7 + i % 3 * 5) % 11) / 10;
-    strbuf_init(&file);
-    image_encode(&sky, IMAGE_HDR, (struct image_display){0}, &file);
-    bool good = output_whole(path, file.data, file.len) == 0;
-    strbuf_finish(&file);
-    image_finish(&sky);
-    return good;
-}
-
-static bool write_mesh(const struct bench *b, str name, const char *text) {
-    char path[PATH_BYTES];
-    snprintf(path, sizeof path, "%s/%.*s", b->work, STR_ARG(name));
-    return output_whole(path, text, strlen(text)) == 0;
-}
-
-// Meshes of two materials that their files name and do not have.
-static bool write_meshes(const struct bench *b) {
-    static const char octahedron[] =
-        "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n"
-        "vt 0.5 0.5\nvt 1.5 0.75\nvt 0.25 1.25\n"
-        "usemtl Gold\nf 1/1 3/2 5/3\nf 3/1 2/2 5/3\nf 2/1 4/2 5/3\nf 4/1 1/2 5/3\n"
-        "usemtl Rest\nf 3/1 1/2 6/3\nf 2/1 3/2 6/3\nf 4/1 2/2 6/3\nf 1/1 4/2 6/3\n";
-    static const char wedge[] = "v -1 -1 1\nv 1 -1 1\nv 0 1 0.5\nv 0 -0.5 -1\n"
-                                "vt 0.5 0.5\nvt 1.5 0.75\nvt 0.25 1.25\n"
-                                "usemtl Gold\nf 1/1 2/2 3/3\nf 2/1 4/2 3/3\n"
-                                "usemtl Rest\nf 4/1 1/2 3/3\nf 1/1 4/2 2/3\n";
-    return write_mesh(b, meshes[0], octahedron) && write_mesh(b, meshes[1], wedge);
-}
-
 static uint32_t count_proven(const struct bench *b) {
     uint32_t proven = 0;
     for (uint32_t i = 0; i < b->count; i++)
@@ -549,7 +509,7 @@ static void try_seed(struct bench *b, uint64_t seed) {
     static const str images[] = {{"sky.hdr", sizeof "sky.hdr" - 1}};
     const struct generate_options options = {.seed = seed,
                                              .renderable = true,
-                                             .meshes = {meshes, 1},
+                                             .meshes = {bench_meshes, 1},
                                              .images = {images, 1},
                                              .mesh_materials = {materials, 2}};
     arena_init(&b->arena, (size_t)1 << 30);
@@ -589,7 +549,7 @@ int main(int argc, char **argv) {
     list_uses(&b);
     if (b.count == 0)
         fprintf(stderr, "no row of that name changes a picture\n");
-    bool good = !b.kit.by_reference && b.count > 0 && write_sky(&b) && write_meshes(&b);
+    bool good = !b.kit.by_reference && b.count > 0 && bench_write_sky(b.work) && bench_write_meshes(b.work);
     for (uint64_t seed = 0; good && seed < SEEDS && count_proven(&b) < b.count; seed++) {
         try_seed(&b, seed);
         printf("seed %d: %u of %u rows and components proven", (int)seed, count_proven(&b), b.count);
