@@ -359,12 +359,22 @@ static void put_flow(struct printer *p, enum join join, uint32_t indent) {
         put(p, flow_join(p, close), expanded ? indent : open);
 }
 
+// A value in brackets that begins on a line of its own stays there, with its properties: a comment after it
+// belongs to what it has in it.
+static enum join value_join(const struct printer *p, enum join otherwise) {
+    uint32_t at = p->at;
+    while (p->tokens.items[at].kind == YAML_TOKEN_PROPERTY)
+        at++;
+    return p->tokens.items[at].kind == YAML_TOKEN_FLOW_OPEN ? flow_join(p, otherwise) : otherwise;
+}
+
 // A node, or nothing if a value is empty. Lists and maps by indentation begin on a line of their own if their
 // first token cannot follow the previous text.
 static void put_node(struct printer *p, enum join join, uint32_t indent) {
     bool after_colon = p->last == YAML_TOKEN_COLON;
     bool after_item = p->last == YAML_TOKEN_ITEM;
     bool properties = false;
+    join = after_colon ? value_join(p, join) : join;
     while (peek(p)->kind == YAML_TOKEN_PROPERTY) {
         put(p, join_before_comment(p, join), indent);
         join = JOIN_SPACE;
