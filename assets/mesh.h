@@ -55,10 +55,15 @@ static inline const char *mesh_place_word(const struct mesh *mesh) {
 // Whether the triangle's area is not 0 (in double, without underflow).
 bool mesh_has_area(const struct mesh *mesh, uint32_t triangle);
 
+// Whether a corner of a face has no normal in the file.
+bool mesh_lacks_normals(const struct mesh *mesh);
+
 // Shading normals of smooth models: three unit vectors per triangle (corner order), 3 * triangle_count.
 // A corner with a normal in the file has that; else unit face normals weighted by their angle at the
-// corner are summed over all corners at bit-equal positions (Thürmer and Wüthrich 1998). Zero vectors if they
-// cancel. `arena` owns the result.
-vec3 *mesh_smooth_normals(const struct mesh *mesh, struct arena *arena);
+// corner are summed over all corners at bit-equal positions (Thürmer and Wüthrich 1998). Below 180 degrees of
+// `crease_angle` (0..180) only those faces are summed which one reaches from the corner's own over edges at
+// which normals differ by at most that, with 0.001 degrees to spare. Zero vectors if they cancel. `arena`
+// owns the result.
+vec3 *mesh_smooth_normals(const struct mesh *mesh, double crease_angle, struct arena *arena);
 
 #endif

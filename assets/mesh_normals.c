@@ -4,6 +4,12 @@
 #include "core/heap.h"
 
 #include <math.h>
+#include <stdlib.h>
+
+// How much sharper than the crease angle an edge may be, in degrees: what positions of seven digits leave
+// open.
+#define CREASE_SLACK 1e-3
+#define DEGREES      57.295779513082320876798154814105
 
 // Unit normal of a face times its angle at each corner (Thürmer and Wüthrich 1998, "Computing Vertex Normals
 // from Polygonal Facets"). Zero for faces without area.
@@ -26,14 +32,6 @@ static void corner_normals(const struct mesh *mesh, uint32_t triangle, vec3 out[
     }
     for (int k = 0; k < 3; k++)
         out[k] = vec3_mul(vec3_unit(longest), angle[k]);
-}
-
-static bool needs_computed(const struct mesh *mesh) {
-    for (uint32_t t = 0; t < mesh->triangle_count; t++)
-        for (int k = 0; k < 3; k++)
-            if (mesh->triangles[t].normals[k] == IR_NO_INDEX)
-                return true;
-    return false;
 }
 
 // Sums at merged positions, and the sum of the lengths that went into each.
@@ -66,21 +64,110 @@ static vec3 unit_or_zero(vec3 sum, double weight) {
     return vec3_unit(sum);
 }
 
-vec3 *mesh_smooth_normals(const struct mesh *mesh, struct arena *arena) {
-    vec3 *normals = ARENA_ARRAY(arena, vec3, heap_times(3, mesh->triangle_count));
-    struct sums s = {0};
-    if (needs_computed(mesh)) {
-        s = sum_at_positions(mesh, arena);
-        for (uint32_t i = 0; i < mesh->position_count; i++)
-            s.sum[i] = unit_or_zero(s.sum[i], s.weight[i]);
-    }
+// ---- faces that meet at an edge which is not sharp
+
+// An edge of a face at a vertex: the other end, and the corner.
+struct spoke {
+    uint32_t vertex, end, corner; // corner: 3 * triangle + k
+};
+
+static int compare_spokes(const void *a, const void *b) {
+    const struct spoke *x = a, *y = b;
+    if (x->vertex != y->vertex)
+        return x->vertex < y->vertex ? -1 : 1;
+    if (x->end != y->end)
+        return x->end < y->end ? -1 : 1;
+    return x->corner < y->corner ? -1 : x->corner > y->corner;
+}
+
+static size_t list_spokes(const struct mesh *mesh, struct spoke *spokes) {
+    size_t count = 0;
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-        const struct mesh_triangle *triangle = &mesh->triangles[t];
-        for (int k = 0; k < 3; k++) {
-            bool given = triangle->normals[k] != IR_NO_INDEX;
-            normals[3 * (size_t)t + (size_t)k] =
-                given ? mesh->normals[triangle->normals[k]] : s.sum[mesh->merged[triangle->corners[k]]];
-        }
+        if (!mesh_has_area(mesh, t))
+            continue;
+        const uint32_t *c = mesh->triangles[t].corners;
+        for (uint32_t k = 0; k < 3; k++)
+            for (uint32_t step = 1; step < 3; step++)
+                spokes[count++] =
+                    (struct spoke){mesh->merged[c[k]], mesh->merged[c[(k + step) % 3]], 3 * t + k};
     }
+    qsort(spokes, count, sizeof *spokes, compare_spokes);
+    return count;
+}
+
+// Corners whose faces go into one normal form a tree; the root is the first of them.
+static uint32_t root_of(uint32_t *parent, uint32_t corner) {
+    while (parent[corner] != corner)
+        corner = parent[corner] = parent[parent[corner]];
+    return corner;
+}
+
+static void join(uint32_t *parent, uint32_t a, uint32_t b) {
+    a = root_of(parent, a);
+    b = root_of(parent, b);
+    parent[a > b ? a : b] = a > b ? b : a;
+}
+
+static bool is_sharp(vec3 a, vec3 b, double crease_angle) {
+    return atan2(vec3_length(vec3_cross(a, b)), vec3_dot(a, b)) * DEGREES > crease_angle + CREASE_SLACK;
+}
+
+// Normals of all corners: of the faces around a position that edges which are not sharp join, one after the
+// other.
+static vec3 *creased(const struct mesh *mesh, double crease_angle, struct arena *arena) {
+    const size_t corners = (size_t)heap_times(3, mesh->triangle_count);
+    vec3 *own = ARENA_ARRAY(arena, vec3, corners), *sum = ARENA_ARRAY(arena, vec3, corners);
+    double *weight = ARENA_ARRAY(arena, double, corners);
+    uint32_t *parent = ARENA_ARRAY(arena, uint32_t, corners);
+    struct spoke *spokes = ARENA_ARRAY(arena, struct spoke, heap_times(2, corners));
+    const size_t count = list_spokes(mesh, spokes);
+    for (size_t i = 0; i < corners; i++)
+        parent[i] = (uint32_t)i;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        if (mesh_has_area(mesh, t))
+            corner_normals(mesh, t, own + 3 * (size_t)t);
+    for (size_t i = 1; i < count; i++) {
+        const struct spoke *a = &spokes[i - 1], *b = &spokes[i];
+        if (a->vertex == b->vertex && a->end == b->end &&
+            !is_sharp(own[a->corner], own[b->corner], crease_angle))
+            join(parent, a->corner, b->corner);
+    }
+    for (size_t i = 0; i < corners; i++) {
+        const uint32_t root = root_of(parent, (uint32_t)i);
+        sum[root] = vec3_add(sum[root], own[i]);
+        weight[root] += vec3_length(own[i]);
+    }
+    for (size_t i = 0; i < corners; i++)
+        own[i] = unit_or_zero(sum[parent[i]], weight[parent[i]]);
+    return own;
+}
+
+static vec3 *summed(const struct mesh *mesh, struct arena *arena) {
+    struct sums s = sum_at_positions(mesh, arena);
+    for (uint32_t i = 0; i < mesh->position_count; i++)
+        s.sum[i] = unit_or_zero(s.sum[i], s.weight[i]);
+    vec3 *normals = ARENA_ARRAY(arena, vec3, heap_times(3, mesh->triangle_count));
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        for (int k = 0; k < 3; k++)
+            normals[3 * (size_t)t + (size_t)k] = s.sum[mesh->merged[mesh->triangles[t].corners[k]]];
+    return normals;
+}
+
+bool mesh_lacks_normals(const struct mesh *mesh) {
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        for (int k = 0; k < 3; k++)
+            if (mesh->triangles[t].normals[k] == IR_NO_INDEX)
+                return true;
+    return false;
+}
+
+vec3 *mesh_smooth_normals(const struct mesh *mesh, double crease_angle, struct arena *arena) {
+    vec3 *normals = !mesh_lacks_normals(mesh) ? ARENA_ARRAY(arena, vec3, heap_times(3, mesh->triangle_count))
+                    : crease_angle < 180      ? creased(mesh, crease_angle, arena)
+                                              : summed(mesh, arena);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        for (int k = 0; k < 3; k++)
+            if (mesh->triangles[t].normals[k] != IR_NO_INDEX)
+                normals[3 * (size_t)t + (size_t)k] = mesh->normals[mesh->triangles[t].normals[k]];
     return normals;
 }

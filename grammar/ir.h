@@ -223,6 +223,7 @@ struct ir_sphere {
     str name;
     vec3 center;
     double radius;
+    vec3 rotation; // degrees, as a model's
     struct ir_reference material;
 };
 
@@ -376,6 +377,7 @@ struct ir_model {
     struct ir_reference material;
     struct ir_map_entries material_map;
     bool smooth;
+    double crease_angle;               // degrees
     vec3 scale, rotation, translation; // degrees; T·Rz·Ry·Rx·S
 };
 

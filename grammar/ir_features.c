@@ -113,6 +113,8 @@ static bool is_on(const struct schema_row *row, const void *element) {
         return *(const int32_t *)field != 0;
     case SCHEMA_NUMBER:
         return *(const double *)field != 0;
+    case SCHEMA_VECTOR:
+        return !vec3_is_zero(*(const vec3 *)field);
     case SCHEMA_WORD:
         return (*(const unsigned *)field == 0) == row->feature_of_first;
     case SCHEMA_TEXT:

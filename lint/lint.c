@@ -60,6 +60,8 @@ const struct lint_rule lint_rules[] = {
     // One pass over the bodies; three values.
     {DIAG_BLACK_MEDIUM, lint_black_medium, LINT_ALL},
     {DIAG_STRETCHED, lint_panorama, LINT_CHEAP},
+    // For smooth meshes that refract: one pass over the triangles.
+    {DIAG_COARSE_GLASS, lint_coarse_glass, LINT_ALL},
     {.run = NULL},
 };
 

@@ -40,6 +40,7 @@ static struct lint_mesh *mesh_of(struct lint *lint, const struct lint_body *body
     struct lint_mesh *added = ARENA_NEW(lint->arena, struct lint_mesh);
     added->mesh = mesh;
     added->first = body;
+    added->facets_of = -1;
     added->tolerance = LINT_RESOLUTION * fmax(vec3_max_abs(mesh->lower), vec3_max_abs(mesh->upper));
     *ARENA_PUSH(lint->arena, &lint->meshes) = added;
     return added;

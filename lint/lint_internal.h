@@ -33,6 +33,7 @@ struct lint_mesh {
     double tolerance;                         // LINT_RESOLUTION of its largest coordinate
     bool has_tree;
     struct lint_tree tree; // lint_tree_of
+    double facets_of;      // the crease angle for which lint_coarse_glass has looked at it; -1: for none
     bool has_pairs;
     struct lint_pairs crossings, overlaps; // lint_find_pairs
 };
@@ -130,6 +131,7 @@ void lint_coincident(struct lint *lint); // rules_coincident.c
 void lint_zero_area(struct lint *lint);  // rules_triangles.c
 void lint_duplicates(struct lint *lint);
 void lint_opposing_normals(struct lint *lint);
+void lint_coarse_glass(struct lint *lint); // rules_facets.c
 void lint_self_overlap(struct lint *lint); // rules_shells.c
 void lint_inside_out(struct lint *lint);
 void lint_oversized_image(struct lint *lint); // rules_image.c

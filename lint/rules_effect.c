@@ -95,6 +95,39 @@ static void look_at_light(struct lint *lint, const struct view_light *light) {
         diag_help(lint->sink, "remove the body, or leave 'visible' out");
 }
 
+// ---- bodies
+
+static bool has_pattern(const struct lint *lint, const struct lint_body *body) {
+    for (uint32_t i = 0; i < body->is->group_count; i++) {
+        const struct ir_material *material = lint_material(lint, body, i);
+        if (material->diffuse_color.kind != IR_PAINT_COLOR || material->specular_color.kind != IR_PAINT_COLOR)
+            return true;
+    }
+    return false;
+}
+
+static void look_at_body(struct lint *lint, const struct lint_body *body) {
+    const struct schema_element *element = body->is->element;
+    if (element == &SCHEMA_SPHERE && lint_is_written(body->is->head, element, "rotation") &&
+        !has_pattern(lint, body)) {
+        diag_add(lint->sink, DIAG_UNUSED_VALUE,
+                 ir_place_key(lint->origin, body->is->head, element, "rotation"),
+                 "'rotation' of %.*s has no effect: a sphere of one colour looks the same from all sides",
+                 STR_ARG(lint_words(lint, body)));
+        diag_help(lint->sink, "give its material an image or a checker, or leave 'rotation' out");
+    }
+    if (element == &SCHEMA_MODEL && body->mesh && lint_is_written(body->is->head, element, "crease_angle") &&
+        (!body->is->smooth || !mesh_lacks_normals(body->mesh->mesh))) {
+        diag_add(lint->sink, DIAG_UNUSED_VALUE,
+                 ir_place_key(lint->origin, body->is->head, element, "crease_angle"),
+                 "'crease_angle' of %.*s has no effect: %s", STR_ARG(lint_words(lint, body)),
+                 body->is->smooth ? "its mesh says itself which edges are sharp, by a normal at each corner"
+                                  : "it is flat, and all of its edges are sharp");
+        diag_help(lint->sink, body->is->smooth ? "leave 'crease_angle' out"
+                                               : "write smooth: true beside it, or leave 'crease_angle' out");
+    }
+}
+
 // ---- shadows and samples
 
 static bool any_refracts(const struct lint *lint) {
@@ -150,6 +183,8 @@ void lint_unused_value(struct lint *lint) {
             look_at_light(lint, &lint->views[0].lights[i]);
     look_at_shadows(lint);
     look_at_samples(lint);
+    for (uint32_t i = 0; i < lint->body_count; i++)
+        look_at_body(lint, &lint->bodies[i]);
     for (uint32_t i = 0; i < lint->body_count; i++)
         for (uint32_t g = 0; lint_is_there(&lint->bodies[i]) && g < lint->bodies[i].is->group_count; g++) {
             const struct ir_material *material = lint_material(lint, &lint->bodies[i], g);

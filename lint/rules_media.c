@@ -314,7 +314,7 @@ static bool is_same_place(const struct lint_body *a, const struct lint_body *b) 
     bool same = a->is->shape == b->is->shape && a->mesh == b->mesh && a->is->radius == b->is->radius &&
                 a->is->radius_to == b->is->radius_to && a->is->height == b->is->height &&
                 vec3_is_zero(vec3_sub(x->offset, y->offset));
-    for (int i = 0; i < 9; i++)
+    for (int i = 0; i < 9 && a->is->shape != SCENE_SPHERE; i++)
         same = same && x->linear.m[i / 3][i % 3] == y->linear.m[i / 3][i % 3];
     return same;
 }

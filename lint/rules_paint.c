@@ -102,14 +102,16 @@ static void own_axes(const struct scene_body *body, struct spot *s) {
 }
 
 // Longitude and latitude, as the sphere's coordinates.
-static void sphere_change(const struct bare *bare, double radius, struct spot *s) {
-    const vec3 o = vec3_unit(s->normal);
+static void sphere_change(const struct bare *bare, const struct scene_body *body, struct spot *s) {
+    const mat3 axes = body->object_to_world.linear;
+    const double radius = body->radius;
+    const vec3 o = shape_into_frame(body, vec3_unit(s->normal));
     const double around2 = fmax(o.x * o.x + o.z * o.z, 1e-12), around = sqrt(around2);
     const vec3 up = {-o.x * o.y, around2, -o.z * o.y};
     if (!bare->image)
         return;
-    s->change[0] = vec3_mul((vec3){-o.z, 0, o.x}, 1 / (around2 * 2 * PI * radius));
-    s->change[1] = vec3_mul(up, 2 / (around * 2 * PI * radius));
+    s->change[0] = vec3_mul(mat3_apply(axes, (vec3){-o.z, 0, o.x}), 1 / (around2 * 2 * PI * radius));
+    s->change[1] = vec3_mul(mat3_apply(axes, up), 2 / (around * 2 * PI * radius));
     s->change[2] = (vec3){0, 0, 0};
 }
 
@@ -123,7 +125,7 @@ static bool meet_sphere(const struct looking *l, struct view_ray ray, struct spo
     s->normal = vec3_add(from, vec3_mul(ray.direction, -b - sqrt(root)));
     s->point = vec3_add(s->normal, body->object_to_world.offset);
     own_axes(body, s);
-    sphere_change(&l->bare[s->material], body->radius, s);
+    sphere_change(&l->bare[s->material], body, s);
     return true;
 }
 

@@ -24,13 +24,15 @@ static struct body make_body(const struct reference *r, const struct scene_body 
     return body;
 }
 
-// Bodies that show the same mesh share its normals.
+// Bodies that show the same mesh with the same edges share its normals.
 static const vec3 *make_normals(struct reference *r, uint32_t number) {
-    const struct mesh *mesh = r->bodies[number].is->mesh;
-    for (uint32_t i = 0; i < number; i++)
-        if (r->bodies[i].is->mesh == mesh && r->bodies[i].normals)
-            return r->bodies[i].normals;
-    return mesh_smooth_normals(mesh, &r->arena);
+    const struct scene_body *own = r->bodies[number].is;
+    for (uint32_t i = 0; i < number; i++) {
+        const struct body *other = &r->bodies[i];
+        if (other->is->mesh == own->mesh && other->is->crease_angle == own->crease_angle && other->normals)
+            return other->normals;
+    }
+    return mesh_smooth_normals(own->mesh, own->crease_angle, &r->arena);
 }
 
 // Bodies first, in IR order, then the triangles of instances.

@@ -203,7 +203,8 @@ static double from_pole(vec3 arm, double side) {
 }
 
 // By the difference of two places, the shorter way around, where a pixel covers no longitude twice.
-static struct place change_on_sphere(const struct spot *at, vec3 axis) {
+static struct place change_on_sphere(const struct spot *at, vec3 way) {
+    const vec3 axis = shape_into_frame(at->body, way);
     struct spot spot = *at;
     const double around = off_axis(&spot), length = vec3_length(axis) / vec3_length(spot.arm);
     const double all = fabs(spot.s->width) / vec3_length(spot.arm) / (2 * PI);
@@ -417,6 +418,7 @@ static vec3 cell_change(const struct spot *spot, vec3 axis, double size) {
     }
     if (!(vec3_length(axis) > 0))
         return axis;
+    axis = shape_into_frame(spot->body, axis);
     const double step = STEP * vec3_length(spot->arm) / vec3_length(axis);
     const struct spot before = moved(spot, axis, -step), after = moved(spot, axis, step);
     return vec3_mul(vec3_sub(after.arm, before.arm), 1 / (2 * step * size));

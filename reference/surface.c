@@ -82,20 +82,21 @@ static void turn_to_ray(struct surface *s, vec3 outward, vec3 direction) {
 // ---- surfaces
 
 static void sphere_surface(const struct reference *r, const struct ray *ray, const struct primitive *p,
-                           struct surface *s, vec3 *arm) {
+                           const struct body *body, struct surface *s, vec3 *arm) {
     vec3 centre = vertex(p, 0);
     vec3 at = vec3_add(ray->start.at, vec3_mul(ray->direction, s->distance));
     // The error of a place on the ray grows with its distance.
     at = reference_rounded3(r, at, vec3_max_abs(at));
     vec3 outward = reference_rounded3(r, vec3_unit(vec3_sub(at, centre)), 1);
     // Back onto the sphere: the error is then that of the radius, whatever the ray's length.
-    *arm = vec3_mul(outward, p->v[1][0]);
-    s->point = vec3_add(centre, *arm);
+    const vec3 from_centre = vec3_mul(outward, p->v[1][0]);
+    s->point = vec3_add(centre, from_centre);
     s->point = reference_rounded3(r, s->point, 0);
-    s->error = vec3_add(vec3_mul(vec3_abs(*arm), reference_gamma(r, 5)),
+    s->error = vec3_add(vec3_mul(vec3_abs(from_centre), reference_gamma(r, 5)),
                         vec3_mul(vec3_abs(s->point), reference_gamma(r, 1)));
     turn_to_ray(s, outward, ray->direction);
     s->bend = (s->enters ? 1 : -1) / p->v[1][0];
+    *arm = shape_into_frame(body->is, from_centre);
 }
 
 // `arm`: in the cone's own axes, from its beginning.
@@ -189,7 +190,7 @@ void reference_surface(const struct reference *r, const struct ray *ray, const s
                             .b1 = b[1],
                             .b2 = b[2]};
     if (p->is_sphere)
-        sphere_surface(r, ray, p, out, &arm);
+        sphere_surface(r, ray, p, body, out, &arm);
     else if (p->is_cone)
         cone_surface(r, ray, body, p, out, &arm);
     else

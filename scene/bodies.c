@@ -52,13 +52,12 @@ affine3 scene_parallelogram(vec3 corner, vec3 u, vec3 v) {
 }
 
 static void add_sphere(struct building *b, uint32_t i) {
-    static const mat3 identity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     const struct ir_sphere *ir = &b->scene->ir->spheres.items[i];
     struct scene_body *body = add(b, &SCHEMA_SPHERE, i, &ir->head, ir->name);
     body->shape = SCENE_SPHERE;
     body->closed = true;
     take_material(b, body, &ir->material);
-    scene_body_place(body, (affine3){identity, ir->center}, ir->radius);
+    scene_body_place(body, transform_of((vec3){1, 1, 1}, ir->rotation, ir->center), ir->radius);
 }
 
 static void add_rectangle(struct building *b, uint32_t i) {
@@ -119,6 +118,7 @@ static void add_model(struct building *b, uint32_t i) {
     struct scene_body *body = add(b, &SCHEMA_MODEL, i, &ir->head, ir->name);
     body->shape = SCENE_MESH;
     body->smooth = ir->smooth;
+    body->crease_angle = ir->smooth ? ir->crease_angle : 180;
     if (i < assets->model_count && assets->models[i].mesh) {
         body->materials = assets->models[i].group_material;
         take_mesh(body, assets->models[i].mesh);

@@ -58,10 +58,11 @@ struct scene_body {
     const uint32_t *materials; // by group: indices into scene.materials
     uint32_t group_count;      // 1 except for meshes
     uint32_t triangle_count;
-    bool closed;       // it has an inside: refraction enters and leaves, else it is a thin pane
-    bool mirrored;     // the determinant is negative: the mesh is turned inside out
-    bool smooth;       // normals are interpolated
-    vec3 lower, upper; // a box around it; for a mesh, around its transformed box; lower > upper: no mesh
+    bool closed;         // it has an inside: refraction enters and leaves, else it is a thin pane
+    bool mirrored;       // the determinant is negative: the mesh is turned inside out
+    bool smooth;         // normals are interpolated
+    double crease_angle; // degrees; of smooth ones, else 180
+    vec3 lower, upper;   // a box around it; for a mesh, around its transformed box; lower > upper: no mesh
 };
 
 // Black after any distance other than 0, and finite.

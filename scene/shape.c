@@ -32,7 +32,7 @@ bool shape_is_same(const struct scene_body *a, const struct scene_body *b) {
            memcmp(&a->object_to_world, &b->object_to_world, sizeof b->object_to_world) == 0 &&
            a->radius == b->radius && a->radius_to == b->radius_to && a->height == b->height &&
            a->mesh == b->mesh && a->triangle_count == b->triangle_count && a->closed == b->closed &&
-           a->mirrored == b->mirrored && a->smooth == b->smooth;
+           a->mirrored == b->mirrored && a->smooth == b->smooth && a->crease_angle == b->crease_angle;
 }
 
 // ---- corners
@@ -200,8 +200,8 @@ mat3 scene_cone_frame(vec3 axis) {
 }
 
 // Its columns are at right angles.
-vec3 shape_into_frame(const struct scene_body *cone, vec3 way) {
-    const mat3 *frame = &cone->object_to_world.linear;
+vec3 shape_into_frame(const struct scene_body *body, vec3 way) {
+    const mat3 *frame = &body->object_to_world.linear;
     return (vec3){vec3_dot(mat3_column(*frame, 0), way), vec3_dot(mat3_column(*frame, 1), way),
                   vec3_dot(mat3_column(*frame, 2), way)};
 }

@@ -37,10 +37,10 @@ vec3 shape_middle(const struct scene_body *body);
 // Of a closed body; 0 of another.
 double shape_volume(const struct scene_body *body);
 
-// ---- cones
+// A way in the own axes of a sphere or a cone.
+vec3 shape_into_frame(const struct scene_body *body, vec3 way);
 
-// A way in a cone's own axes.
-vec3 shape_into_frame(const struct scene_body *cone, vec3 way);
+// ---- cones
 
 struct shape_cone {
     vec3 from, axis; // unit

@@ -43,8 +43,9 @@
     ROW(TEXTURES, textures)                                                                                  \
     ROW(SKY_LIGHT, sky_light)                                                                                \
     ROW(SEEN_LIGHT, seen_light)                                                                              \
-    ROW(CONES, cones)
-#define FEATURE_COUNT 34
+    ROW(CONES, cones)                                                                                        \
+    ROW(TURNED, turned)
+#define FEATURE_COUNT 35
 
 #ifdef __STDC_VERSION__
 #include <stdint.h>
@@ -89,6 +90,7 @@
 #define FEATURE_SKY_LIGHT        FEATURE_FIRST(31) /* the background lights */
 #define FEATURE_SEEN_LIGHT       FEATURE_SECOND(0) /* lights that rays see */
 #define FEATURE_CONES            FEATURE_SECOND(1) /* cylinders and cones */
+#define FEATURE_TURNED           FEATURE_SECOND(2) /* spheres whose images are turned */
 /* With any of them something with extent is sampled: rays have keys (light/points.h). */
 #define FEATURE_POINTS                                                                                       \
     (FEATURE_SOFT_LIGHT | FEATURE_OCCLUSION | FEATURE_ROUGHNESS | FEATURE_CAMERA | FEATURE_SKY_LIGHT)
@@ -99,8 +101,8 @@
     (FEATURE_ALL &                                                                                           \
      ~(FEATURE_SLICES | FEATURE_COUNTERS | FEATURE_LONG_RAYS | FEATURE_MANY_LIGHTS | FEATURE_BEGINS))
 /* Of those, what a kernel may have whether the scene asks for it or not; with cones the records of spheres
-   have another layout. */
-#define FEATURE_GENERAL (FEATURE_SCENE_MASK & ~FEATURE_CONES)
+   have another layout, and only of turned spheres the axes are known. */
+#define FEATURE_GENERAL (FEATURE_SCENE_MASK & ~(FEATURE_CONES | FEATURE_TURNED))
 #endif
 
 #endif

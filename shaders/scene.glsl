@@ -54,6 +54,7 @@ const bool HAS_CAMERA = (FEATURES & FEATURE_CAMERA) != 0u;
 const bool HAS_SKY_LIGHT = (FEATURES & FEATURE_SKY_LIGHT) != 0u;
 const bool HAS_SEEN_LIGHT = (MORE_FEATURES & FEATURE_SEEN_LIGHT.y) != 0u;
 const bool HAS_CONES = (MORE_FEATURES & FEATURE_CONES.y) != 0u;
+const bool HAS_TURNED = (MORE_FEATURES & FEATURE_TURNED.y) != 0u;
 const bool HAS_ROUND = HAS_SPHERES || HAS_CONES; // the tree of spheres has something
 const bool HAS_PLACES = HAS_SOFT_LIGHT || HAS_OCCLUSION || HAS_SKY_LIGHT; // shadow rays know where they end
 const bool HAS_SIDES = HAS_MEDIA || HAS_FRESNEL; // surfaces know the indices on both sides

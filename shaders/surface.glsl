@@ -185,8 +185,12 @@ void sphere_surface(hit_record hit, REAL3 origin, REAL3 direction, inout surface
     paint_spot spot = begin_spot(hit.t, direction, s);
     if (HAS_FOOTPRINT)
         s.bend = (s.enters ? 1.0 : -1.0) / sphere.radius;
-    if (HAS_PAINT && wants(FEATURE_TEXTURES | FEATURE_FOOTPRINT))
-        sphere_spot(outward, sphere.radius, s.width, spot);
+    if (HAS_PAINT && wants(FEATURE_TEXTURES | FEATURE_FOOTPRINT)) {
+        if (HAS_TURNED)
+            turned_sphere_spot(load_body(sphere.body), outward, sphere.radius, s.width, spot);
+        else
+            sphere_spot(outward, sphere.radius, s.width, spot);
+    }
     read_material(sphere.shade, sphere.body, REAL2(0.0), spot, s);
 }
 

@@ -89,7 +89,8 @@ static void turn_normals(void *context, size_t begin, size_t end) {
 }
 
 static void smooth_normals(struct peer *peer, struct peer_body *body, uint32_t twin) {
-    if (body->instance && twin != UINT32_MAX && peer->bodies[twin].normals) {
+    if (body->instance && twin != UINT32_MAX && peer->bodies[twin].normals &&
+        peer->bodies[twin].is->crease_angle == body->is->crease_angle) {
         body->normals = peer->bodies[twin].normals;
         return;
     }
@@ -99,7 +100,7 @@ static void smooth_normals(struct peer *peer, struct peer_body *body, uint32_t t
     struct arena scratch;
     arena_init(&scratch, SIZE_MAX);
     float3 *normals = ARENA_ARRAY(&peer->arena, float3, count);
-    struct turning turning = {mesh_smooth_normals(mesh, &scratch),
+    struct turning turning = {mesh_smooth_normals(mesh, body->is->crease_angle, &scratch),
                               body->instance ? same : transform_for_normals(body->is->object_to_world.linear),
                               normals};
     parallel_for(count, PIECE, turn_normals, &turning);

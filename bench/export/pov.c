@@ -141,7 +141,7 @@ static void put_corners(const struct scene_body *body, struct strbuf *out) {
 static void put_normals(const struct scene_body *body, struct strbuf *out) {
     struct arena arena;
     arena_init(&arena, SIZE_MAX);
-    const vec3 *normals = mesh_smooth_normals(body->mesh, &arena);
+    const vec3 *normals = mesh_smooth_normals(body->mesh, body->crease_angle, &arena);
     strbuf_format(out, "normal_vectors { %u\n", 3 * body->triangle_count);
     for (uint32_t i = 0; i < body->triangle_count; i++) {
         vec3 n[3];

@@ -85,7 +85,8 @@ static void put_triangles(const struct scene_body *body, struct strbuf *out) {
     static const char *const names[2][3] = {{" V0 ", " V1 ", " V2 "}, {" N0 ", " N1 ", " N2 "}};
     struct arena arena;
     arena_init(&arena, SIZE_MAX);
-    const vec3 *normals = body->smooth && body->mesh ? mesh_smooth_normals(body->mesh, &arena) : NULL;
+    const vec3 *normals =
+        body->smooth && body->mesh ? mesh_smooth_normals(body->mesh, body->crease_angle, &arena) : NULL;
     for (uint32_t i = 0; i < body->triangle_count; i++) {
         vec3 parts[2][3];
         scene_corners(body, &body->object_to_world, i, parts[0]);

@@ -310,6 +310,18 @@ void sphere_spot(REAL3 outward, REAL radius, REAL width, inout paint_spot spot) 
     spot.across = sphere_change(map, spot.axis_across / radius);
 }
 
+// The same in the axes of the body, which are its rows.
+void turned_sphere_spot(body_record body, REAL3 outward, REAL radius, REAL width, inout paint_spot spot) {
+    REAL3 x = unit3(body.row_x), y = unit3(body.row_y), z = unit3(body.row_z);
+    paint_spot own = spot;
+    own.axis_along = REAL3(dot3(x, spot.axis_along), dot3(y, spot.axis_along), dot3(z, spot.axis_along));
+    own.axis_across = REAL3(dot3(x, spot.axis_across), dot3(y, spot.axis_across), dot3(z, spot.axis_across));
+    sphere_spot(REAL3(dot3(x, outward), dot3(y, outward), dot3(z, outward)), radius, width, own);
+    spot.at = own.at;
+    spot.along = own.along;
+    spot.across = own.across;
+}
+
 // Of a cylinder or cone: a hit on it.
 struct frustum_map {
     REAL3 arm;     // from the axis

@@ -37,7 +37,7 @@ static void check_mesh(const struct mesh *mesh, struct arena *arena) {
             require(triangle->group < mesh->group_count, "a group");
         }
     require(mesh->closed == (mesh->open_edges == 0), "closed, or an open edge");
-    const vec3 *normals = mesh_smooth_normals(mesh, arena);
+    const vec3 *normals = mesh_smooth_normals(mesh, 180, arena);
     for (uint32_t i = 0; i < 3 * mesh->triangle_count; i++)
         require(isfinite(normals[i].x) && isfinite(normals[i].y) && isfinite(normals[i].z),
                 "normals are finite");

@@ -32,6 +32,7 @@ struct shared_mesh {
     uint32_t root;                // of its tree, among all nodes
     bool has_normals;
     uint32_t normal_base;     // of the mesh's own normals
+    double crease_angle;      // of those
     struct bvh_bounds *boxes; // which together hold the whole mesh, in the tree's space
     uint32_t box_count;
 };
@@ -119,6 +120,8 @@ enum flatten_fault flatten_media(struct flattening *f);
 
 // ---- flatten_shade.c
 
+// Whether a sphere has axes of its own.
+bool flatten_turns_spheres(const struct flattening *f);
 // Fills out->normals and out->normal_base.
 enum flatten_fault flatten_normals(struct flattening *f);
 // Fills out->bodies.

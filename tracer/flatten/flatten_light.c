@@ -315,7 +315,8 @@ void flatten_features(struct flattening *f) {
                          FEATURE_POINT_LIGHT | FEATURE_DIRECTION_LIGHT | FEATURE_INVERSE_SQUARE |
                          FEATURE_BACKGROUND_IMAGE | FEATURE_MEDIA | FEATURE_ATTENUATION | FEATURE_TEXTURES |
                          FEATURE_FOOTPRINT | FEATURE_SOFT_LIGHT | FEATURE_AMBIENT | FEATURE_OCCLUSION |
-                         FEATURE_EMISSION | FEATURE_SKY_LIGHT | FEATURE_SEEN_LIGHT | FEATURE_CONES;
+                         FEATURE_EMISSION | FEATURE_SKY_LIGHT | FEATURE_SEEN_LIGHT | FEATURE_CONES |
+                         FEATURE_TURNED;
     struct flat_scene *out = f->out;
     uint64_t mask = ir_features(f->scene->ir) & FEATURE_SCENE_MASK & ~own;
     mask |= out->triangle_count ? FEATURE_TRIANGLES : 0;
@@ -326,6 +327,7 @@ void flatten_features(struct flattening *f) {
     mask |= used_material_features(f);
     mask |= f->light_features;
     mask |= ambient_features(f);
+    mask |= mask & FEATURE_TEXTURES && flatten_turns_spheres(f) ? FEATURE_TURNED : 0;
     mask |= out->sky.rows || (f->scene->background.lights && !has_pixels(f)) ? FEATURE_SKY_LIGHT : 0;
     if (!(mask & FEATURE_DIFFUSE))
         mask &= ~(FEATURE_AMBIENT | FEATURE_OCCLUSION);

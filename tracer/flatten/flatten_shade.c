@@ -1,7 +1,6 @@
 // What shading needs from a body: the coordinates of its checker, and its vertex normals.
 #include "core/heap.h"
 #include "core/parallel.h"
-#include "scene/mesh_use.h"
 #include "scene/shape.h"
 #include "tracer/flatten/flatten_internal.h"
 
@@ -13,6 +12,14 @@ enum {
 };
 
 // ---- body records
+
+bool flatten_turns_spheres(const struct flattening *f) {
+    const struct ir_scene *ir = f->scene->ir;
+    for (uint32_t i = 0; i < ir->spheres.count; i++)
+        if (!vec3_is_zero(ir->spheres.items[i].rotation))
+            return true;
+    return false;
+}
 
 static bool has_checker(const struct scene *scene, const struct scene_body *body) {
     for (uint32_t i = 0; i < body->group_count; i++)
@@ -42,6 +49,7 @@ static void put_edge_lengths(const struct scene_body *body, struct gpu_body *rec
 
 enum flatten_fault flatten_body_records(struct flattening *f) {
     const uint32_t stride = f->out->strides.body;
+    const bool turns = flatten_turns_spheres(f);
     if (!flat_array_make(&f->out->bodies, (uint64_t)f->out->body_count * stride))
         return FLATTEN_NO_MEMORY;
     for (uint32_t i = 0; i < f->out->body_count; i++) {
@@ -51,8 +59,10 @@ enum flatten_fault flatten_body_records(struct flattening *f) {
                                   .instance = f->out->instance_of[i]};
         if (f->medium)
             record.medium = f->medium[i];
-        const bool is_cone = shape_traits(body->shape).items == SHAPE_CONE; // its frame, for images
-        if (has_checker(f->scene, body) || is_cone) {
+        // Its axes, for images.
+        const bool is_round =
+            body->shape == SCENE_SPHERE ? turns : shape_traits(body->shape).items == SHAPE_CONE;
+        if (has_checker(f->scene, body) || is_round) {
             if (shape_traits(body->shape).is_flat)
                 put_edge_lengths(body, &record);
             else
@@ -65,8 +75,28 @@ enum flatten_fault flatten_body_records(struct flattening *f) {
 
 // ---- normals
 
-// The smooth bodies, those of one mesh together, and the normal base of each in IR order.
-static enum flatten_fault list_uses(struct flattening *f, struct mesh_use **uses, uint32_t *count) {
+// A smooth body.
+struct smooth_use {
+    const struct mesh *mesh;
+    double crease_angle;
+    uint32_t body;
+};
+
+static bool has_same_normals(const struct smooth_use *a, const struct smooth_use *b) {
+    return a->mesh == b->mesh && a->crease_angle == b->crease_angle;
+}
+
+static int compare_uses(const void *a, const void *b) {
+    const struct smooth_use *x = a, *y = b;
+    if (x->mesh != y->mesh)
+        return (uintptr_t)x->mesh < (uintptr_t)y->mesh ? -1 : 1;
+    if (x->crease_angle != y->crease_angle)
+        return x->crease_angle < y->crease_angle ? -1 : 1;
+    return x->body < y->body ? -1 : x->body > y->body;
+}
+
+// The smooth bodies, those of one mesh and crease angle together, and the normal base of each in IR order.
+static enum flatten_fault list_uses(struct flattening *f, struct smooth_use **uses, uint32_t *count) {
     *count = 0;
     *uses = heap_array((size_t)f->scene->body_count + 1, sizeof **uses);
     if (!*uses)
@@ -76,19 +106,21 @@ static enum flatten_fault list_uses(struct flattening *f, struct mesh_use **uses
         const struct scene_body *body = &f->scene->bodies[i];
         if (!body->smooth || !body->mesh)
             continue;
-        // Instances have the normals of the first one, as in the mesh.
+        // Instances have the normals of the first one, as in the mesh; those with other edges have their own.
         struct shared_mesh *shared = flatten_shared(f, i);
-        f->out->normal_base[i] = shared && shared->has_normals ? shared->normal_base : (uint32_t)normals;
-        if (shared && shared->has_normals)
+        const bool again = shared && shared->has_normals && shared->crease_angle == body->crease_angle;
+        f->out->normal_base[i] = again ? shared->normal_base : (uint32_t)normals;
+        if (again)
             continue;
-        if (shared) {
+        if (shared && !shared->has_normals) {
             shared->has_normals = true;
             shared->normal_base = (uint32_t)normals;
+            shared->crease_angle = body->crease_angle;
         }
-        (*uses)[(*count)++] = (struct mesh_use){body->mesh, i};
+        (*uses)[(*count)++] = (struct smooth_use){body->mesh, body->crease_angle, i};
         normals += (uint64_t)body->triangle_count * 3;
     }
-    qsort(*uses, *count, sizeof **uses, mesh_use_compare);
+    qsort(*uses, *count, sizeof **uses, compare_uses);
     return flat_array_make(&f->out->normals, normals * f->out->strides.normal) ? FLATTEN_DONE
                                                                                : FLATTEN_NO_MEMORY;
 }
@@ -117,7 +149,7 @@ static void turn_normals(void *context, size_t begin, size_t end) {
 
 struct mesh_turning {
     struct flattening *f;
-    const struct mesh_use *uses; // of one mesh
+    const struct smooth_use *uses; // with the same normals
     uint32_t count;
     struct arena arena;
 };
@@ -126,7 +158,7 @@ struct mesh_turning {
 static void turn_mesh(void *context) {
     struct mesh_turning *m = context;
     const struct mesh *mesh = m->uses[0].mesh;
-    const vec3 *normals = mesh_smooth_normals(mesh, &m->arena);
+    const vec3 *normals = mesh_smooth_normals(mesh, m->uses[0].crease_angle, &m->arena);
     for (uint32_t i = 0; i < m->count; i++) {
         const uint32_t number = m->uses[i].body;
         const struct scene_body *body = &m->f->scene->bodies[number];
@@ -141,11 +173,11 @@ static void turn_mesh(void *context) {
 }
 
 enum flatten_fault flatten_normals(struct flattening *f) {
-    struct mesh_use *uses = NULL;
+    struct smooth_use *uses = NULL;
     uint32_t count;
     enum flatten_fault fault = list_uses(f, &uses, &count);
     for (uint32_t begin = 0, end; fault == FLATTEN_DONE && begin < count; begin = end) {
-        for (end = begin + 1; end < count && uses[end].mesh == uses[begin].mesh;)
+        for (end = begin + 1; end < count && has_same_normals(&uses[end], &uses[begin]);)
             end++;
         struct mesh_turning m = {.f = f, .uses = uses + begin, .count = end - begin};
         arena_init(&m.arena, SIZE_MAX);

@@ -49,7 +49,7 @@ static void load(const char *obj, size_t obj_size, const char *mtl, size_t mtl_s
     else
         assert_true(s->sink.errors > 0);
     if (mesh) {
-        const vec3 *normals = mesh_smooth_normals(mesh, &s->arena);
+        const vec3 *normals = mesh_smooth_normals(mesh, 180, &s->arena);
         for (uint32_t i = 0; i < 3 * mesh->triangle_count; i++)
             assert_true(vec3_is_zero(normals[i]) || fabs(vec3_length(normals[i]) - 1) < 1e-9);
     }

@@ -51,7 +51,7 @@ static void seed_is_read(void **state) {
     assert_int_equal(mesh->closed, seed->closed);
     assert_false(mesh->turned);
     assert_int_equal(mesh->volume > 0, seed->closed);
-    const vec3 *normals = mesh_smooth_normals(mesh, &s->arena);
+    const vec3 *normals = mesh_smooth_normals(mesh, 180, &s->arena);
     uint32_t zero = 0;
     for (uint32_t i = 0; i < 3 * mesh->triangle_count; i++) {
         zero += vec3_is_zero(normals[i]);

@@ -198,11 +198,43 @@ static void a_smooth_cube_looks_along_its_diagonals(void **state) {
     (void)state;
     struct assets_scene *s = assets_scene_begin();
     const struct mesh *mesh = assets_scene_mesh(s, CUBE);
-    const vec3 *normals = mesh_smooth_normals(mesh, &s->arena);
+    const vec3 *normals = mesh_smooth_normals(mesh, 180, &s->arena);
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
         for (int k = 0; k < 3; k++)
             assert_near(normals[3 * t + (uint32_t)k],
                         vec3_unit(vec3_sub(corner(mesh, t, k), (vec3){0.5, 0.5, 0.5})));
+    assets_scene_end(s);
+}
+
+// Edges of exactly the crease angle are not sharper than it.
+static void a_creased_cube_has_edges(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    const struct mesh *mesh = assets_scene_mesh(s, CUBE);
+    const vec3 *creased = mesh_smooth_normals(mesh, 89.9, &s->arena);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        const vec3 face = vec3_unit(vec3_cross(vec3_sub(corner(mesh, t, 1), corner(mesh, t, 0)),
+                                               vec3_sub(corner(mesh, t, 2), corner(mesh, t, 0))));
+        for (uint32_t k = 0; k < 3; k++)
+            assert_near(creased[3 * t + k], face);
+    }
+    assert_memory_equal(mesh_smooth_normals(mesh, 90, &s->arena), mesh_smooth_normals(mesh, 180, &s->arena),
+                        3 * mesh->triangle_count * sizeof(vec3));
+    assets_scene_end(s);
+}
+
+// Two flat faces, and a wing that an edge of 60 degrees joins to one of them.
+static void creases_end_inside_a_fan(void **state) {
+    (void)state;
+    struct assets_scene *s = assets_scene_begin();
+    const struct mesh *mesh = assets_scene_mesh(s, "v 0 0 0\nv 1 0 0\nv 0 0 -1\nv 0 0.86602540378 0.5\n"
+                                                   "v -1 0 0\nf 1 2 3\nf 1 4 2\nf 1 3 5\n");
+    const vec3 *normals = mesh_smooth_normals(mesh, 59, &s->arena);
+    assert_near(normals[0], (vec3){0, 1, 0});
+    assert_true(vec3_length(vec3_sub(normals[3], (vec3){0, 0.5, -0.86602540378})) < 1e-9);
+    assert_near(normals[6], (vec3){0, 1, 0});
+    const vec3 *joined = mesh_smooth_normals(mesh, 180, &s->arena);
+    assert_true(vec3_length(vec3_sub(joined[0], normals[0])) > 0.1);
     assets_scene_end(s);
 }
 
@@ -214,7 +246,7 @@ static void angles_weigh(void **state) {
     struct assets_scene *s = assets_scene_begin();
     const struct mesh *mesh = assets_scene_mesh(s, "v 0 0 0\nv 0 0 1\nv 1 0 1\nv 1 0 0\nv 0 -1 0\n"
                                                    "f 1 2 3\nf 1 3 4\nf 2 1 5\n");
-    const vec3 *normals = mesh_smooth_normals(mesh, &s->arena);
+    const vec3 *normals = mesh_smooth_normals(mesh, 180, &s->arena);
     double quarter = acos(0); // 90 degrees
     // At vertex 1: up with 45 + 45, towards -x with 90.
     assert_near(normals[0], vec3_unit((vec3){-quarter, quarter, 0}));
@@ -231,7 +263,7 @@ static void split_vertices_are_summed_too(void **state) {
     struct assets_scene *s = assets_scene_begin();
     const struct mesh *mesh = assets_scene_mesh(s, "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 0 0 0\nv 0 -1 0\nv 0 0 1\n"
                                                    "f 1 2 3\nf 4 5 6\n");
-    const vec3 *normals = mesh_smooth_normals(mesh, &s->arena);
+    const vec3 *normals = mesh_smooth_normals(mesh, 180, &s->arena);
     assert_near(normals[0], vec3_unit((vec3){-1, 1, 0}));
     assert_near(normals[3], normals[0]);
     assets_scene_end(s);
@@ -242,7 +274,7 @@ static void normals_of_the_file_are_kept(void **state) {
     struct assets_scene *s = assets_scene_begin();
     const struct mesh *mesh =
         assets_scene_mesh(s, "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 3 0 4\nvn 0 0 0\nf 1//1 2//2 3\n");
-    const vec3 *normals = mesh_smooth_normals(mesh, &s->arena);
+    const vec3 *normals = mesh_smooth_normals(mesh, 180, &s->arena);
     assert_near(normals[0], (vec3){0.6, 0, 0.8});
     assert_near(normals[1], (vec3){0, 0, 1});
     assert_near(normals[2], (vec3){0, 0, 1});
@@ -256,7 +288,7 @@ static void a_lacking_normal_is_computed(void **state) {
     for (uint32_t k = 0; k < 3; k++) {
         struct assets_scene *s = assets_scene_begin();
         str text = arena_format(&s->arena, "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 3 0 4\n%s", faces[k]);
-        const vec3 *normals = mesh_smooth_normals(assets_scene_mesh(s, text.ptr), &s->arena);
+        const vec3 *normals = mesh_smooth_normals(assets_scene_mesh(s, text.ptr), 180, &s->arena);
         for (uint32_t i = 0; i < 3; i++)
             assert_near(normals[i], i == k ? (vec3){0, 0, 1} : (vec3){0.6, 0, 0.8});
         assets_scene_end(s);
@@ -268,7 +300,7 @@ static void what_cancels_is_zero(void **state) {
     struct assets_scene *s = assets_scene_begin();
     const struct mesh *mesh = assets_scene_mesh(s, "v 0.1 0.2 0.7\nv 1.3 0 0.4\nv 0 1.7 .9\nv 1 1 1\n"
                                                    "f 1 2 3\nf 3 2 1\nf 4 4 4\n");
-    const vec3 *normals = mesh_smooth_normals(mesh, &s->arena);
+    const vec3 *normals = mesh_smooth_normals(mesh, 180, &s->arena);
     for (uint32_t i = 0; i < 9; i++)
         assert_true(vec3_is_zero(normals[i]));
     assets_scene_end(s);
@@ -280,7 +312,7 @@ static void rounding_is_no_normal(void **state) {
     struct assets_scene *s = assets_scene_begin();
     const struct mesh *mesh = assets_scene_mesh(s, "v .1 .2 .3\nv .8 .3 .7\nv -.1 1.1 .8\nv .4 .475 .625\n"
                                                    "f 1 2 3\nf 1 4 2\nf 1 3 4\n");
-    const vec3 *normals = mesh_smooth_normals(mesh, &s->arena);
+    const vec3 *normals = mesh_smooth_normals(mesh, 180, &s->arena);
     for (uint32_t t = 0; t < 3; t++)
         assert_true(vec3_is_zero(normals[3 * t]));
     assets_scene_end(s);
@@ -292,7 +324,7 @@ static void a_small_sum_is_a_normal(void **state) {
     struct assets_scene *s = assets_scene_begin();
     const struct mesh *mesh =
         assets_scene_mesh(s, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 1 0.00000095367431640625\nf 1 2 3\nf 1 4 2\n");
-    const vec3 *normals = mesh_smooth_normals(mesh, &s->arena);
+    const vec3 *normals = mesh_smooth_normals(mesh, 180, &s->arena);
     assert_true(vec3_length(vec3_sub(normals[0], (vec3){0, cos(0x1p-21), sin(0x1p-21)})) < 1e-9);
     assets_scene_end(s);
 }
@@ -304,7 +336,7 @@ static void a_needle_has_an_exact_normal(void **state) {
     const struct mesh *mesh = assets_scene_mesh(
         s, "v 0 0 0\nv 3 1 2\nv 3.000000000931322574615478515625 0.999999999068677425384521484375 "
            "1.999999999068677425384521484375\nf 1 2 3\n");
-    const vec3 *normals = mesh_smooth_normals(mesh, &s->arena);
+    const vec3 *normals = mesh_smooth_normals(mesh, 180, &s->arena);
     assert_near(normals[0], vec3_unit((vec3){1, 5, -4}));
     assets_scene_end(s);
 }
@@ -326,7 +358,7 @@ static void normals_move_and_scale_exactly(void **state) {
                           points[i][1] * scale + move, points[i][2] * scale + move);
         strbuf_cstr(&text, CUBE_SIDES "f 4 1 5 8\n");
         const struct mesh *mesh = assets_scene_mesh(s, text.data);
-        const vec3 *normals = mesh_smooth_normals(mesh, &s->arena);
+        const vec3 *normals = mesh_smooth_normals(mesh, 180, &s->arena);
         if (round == 0)
             memcpy(first, normals, sizeof first);
         assert_memory_equal(first, normals, sizeof first);
@@ -348,6 +380,8 @@ int main(void) {
         cmocka_unit_test(a_sheet_with_a_back_is_not_turned),
         cmocka_unit_test(triangles_without_area_are_counted),
         cmocka_unit_test(a_smooth_cube_looks_along_its_diagonals),
+        cmocka_unit_test(a_creased_cube_has_edges),
+        cmocka_unit_test(creases_end_inside_a_fan),
         cmocka_unit_test(angles_weigh),
         cmocka_unit_test(split_vertices_are_summed_too),
         cmocka_unit_test(normals_of_the_file_are_kept),

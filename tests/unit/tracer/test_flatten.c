@@ -289,7 +289,7 @@ static void test_normals(void **state) {
         model->translation = (vec3){i * 5.0, 0, 0};
     }
     flatten_ok(&kit, &flat);
-    const vec3 *of_mesh = mesh_smooth_normals(sphere, &kit.arena);
+    const vec3 *of_mesh = mesh_smooth_normals(sphere, 180, &kit.arena);
     assert_int_equal(flat.normals.count, 2 * 3 * sphere->triangle_count);
     assert_true(flat.features & FEATURE_SMOOTH);
     for (uint32_t body = 0; body < 3; body += 2) {
@@ -435,7 +435,7 @@ static void test_doubles_stay(void **state) {
             fail_msg("corner %u: (%.17g %.17g %.17g) is not (%.17g %.17g %.17g)", (unsigned)k, vertex.x,
                      vertex.y, vertex.z, wanted.x, wanted.y, wanted.z);
     }
-    const vec3 *of_mesh = mesh_smooth_normals(kit.assets.models[0].mesh, &kit.arena);
+    const vec3 *of_mesh = mesh_smooth_normals(kit.assets.models[0].mesh, 180, &kit.arena);
     const mat3 turn = transform_for_normals(map.linear);
     for (uint32_t i = 0; i < 12; i++)
         assert_doubles(flat.normals.words + (size_t)flat.strides.normal * i,
