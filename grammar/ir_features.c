@@ -194,7 +194,9 @@ static void walk_scene(struct feature_walk *w) {
     if (w->reasons) {
         struct ir_feature_reason *reason = &w->reasons[bit_number(FEATURE_POINT_LIGHT)];
         *reason = (struct ir_feature_reason){.bit = FEATURE_POINT_LIGHT, .at = SPAN_NONE};
-        snprintf(reason->words, sizeof reason->words, "no light is written, so one is placed at the camera");
+        snprintf(reason->words, sizeof reason->words, "%s",
+                 w->scene->lights.count > 0 ? "each light is a panel, which shines from its points"
+                                            : "no light is written, so one is placed at the camera");
     }
 }
 

@@ -51,6 +51,9 @@ void hoop_generate(struct mesh *mesh);
 // A block of water, 1 x 1, 1 deep, whose rippled surface lies around y = 0.
 void water_generate(struct mesh *mesh);
 
+// A TrueType font of letters, figures and signs for labels; false: no memory.
+bool font_generate(struct strbuf *bytes);
+
 // Equirectangular sky, mountains and lake: width * height RGB bytes (sRGB), width twice the height.
 // The caller frees the result; NULL: out of memory.
 unsigned char *sky_generate(int width, int height);

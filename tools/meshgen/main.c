@@ -1,4 +1,4 @@
-// glint-meshgen: makes the meshes and the sky of the scenes that ship.
+// glint-meshgen: makes the meshes, the sky and the font of the scenes that ship.
 //
 //     glint-meshgen list             the names, one a line
 //     glint-meshgen NAME OUT         writes one
@@ -93,6 +93,7 @@ static const struct product PRODUCTS[] = {
     {"sky", "sky, mountains and lake", NULL, write_sky, NULL},
     {"sky-fine", "the same for large pictures", NULL, write_fine_sky, NULL},
     {"planks", "planks of wood, to be repeated", NULL, write_planks, NULL},
+    {"font", "a font for labels", NULL, font_generate, NULL},
     {"globe", "land and sea of a globe", NULL, write_globe, NULL},
 };
 

@@ -114,6 +114,17 @@ static void test_all_fonts(void **state) {
         skip();
 }
 
+// The font of the scenes: whatever is written in it is closed, with bevels too.
+static void test_scenes_font(void **state) {
+    (void)state;
+    if (!made_has_fonts())
+        skip();
+    struct counts counts = {0};
+    try_font("scenes/meshes/round.ttf", &counts);
+    assert_int_equal(counts.fonts, 1);
+    assert_true(counts.glyphs > 70 && counts.bevelled == counts.glyphs);
+}
+
 // ---- one font
 
 static str one_font(void) {
@@ -283,10 +294,10 @@ static int finish(void **state) {
 int main(int argc, char **argv) {
     few = argc > 1 && strcmp(argv[1], "few") == 0;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_layout),    cmocka_unit_test(test_faults),
-        cmocka_unit_test(test_all_fonts), cmocka_unit_test(test_small_memory),
-        cmocka_unit_test(test_overlaps),  cmocka_unit_test(test_damaged),
-        cmocka_unit_test(test_speed),
+        cmocka_unit_test(test_layout),       cmocka_unit_test(test_faults),
+        cmocka_unit_test(test_all_fonts),    cmocka_unit_test(test_scenes_font),
+        cmocka_unit_test(test_small_memory), cmocka_unit_test(test_overlaps),
+        cmocka_unit_test(test_damaged),      cmocka_unit_test(test_speed),
     };
     return cmocka_run_group_tests(tests, NULL, finish);
 }

@@ -153,6 +153,10 @@ static void test_reasons(void **state) {
         mask |= reasons.items[i].bit;
     }
     assert_int_equal(mask, reasons.mask);
+    add_light(kit)->kind = IR_LIGHT_RECTANGLE;
+    ir_features_explain(&kit->scene, &origin, &reasons);
+    assert_string_equal(reason_for(&reasons, FEATURE_POINT_LIGHT)->words,
+                        "each light is a panel, which shines from its points");
 }
 
 static void test_names(void **state) {
