@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-// A ball of glass of which normals differ from the faces by this many degrees shows what is behind it wrong
-// by 1 % of the range of its pixels, a thin-walled bowl by 3 % (bench/smooth_glass.sh).
+// A ball of glass of which normals differ from the faces by this many degrees shows the scene wrong by 1 % of
+// the range of its pixels, a thin-walled bowl by 3 % (bench/smooth_glass.sh).
 #define OFF_MOST  6.0
 #define PART_MOST 0.25 // of the surface
 #define DEGREES   57.295779513082320876798154814105

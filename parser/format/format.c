@@ -6,7 +6,8 @@ static bool ends_line(str text) {
     size_t end = text.len;
     while (end > 0 && char_is_blank(text.ptr[end - 1]))
         end--;
-    return end > 0 && char_is_break(text.ptr[end - 1]);
+    const bool ends_with_nel = end > 1 && text.ptr[end - 1] == '\x85' && text.ptr[end - 2] == '\xC2';
+    return ends_with_nel || (end > 0 && char_is_break(text.ptr[end - 1]));
 }
 
 struct layout {

@@ -20,8 +20,12 @@ struct properties {
     span anchor, tag;
 };
 
+static bool is_between(str text, uint32_t at) {
+    return char_is_space(text.ptr[at]) || str_yaml_break_length(text, at);
+}
+
 static uint32_t skip_word(str text, uint32_t at, uint32_t end) {
-    while (at < end && !char_is_space(text.ptr[at]))
+    while (at < end && !is_between(text, at))
         at++;
     return at;
 }
@@ -29,7 +33,7 @@ static uint32_t skip_word(str text, uint32_t at, uint32_t end) {
 static uint32_t skip_anchor(str text, uint32_t at, uint32_t end) {
     do
         at++;
-    while (at < end && !char_is_space(text.ptr[at]) && !memchr(",[]{}:", text.ptr[at], 6));
+    while (at < end && !is_between(text, at) && !memchr(",[]{}:", text.ptr[at], 6));
     return at;
 }
 
