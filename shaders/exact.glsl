@@ -105,7 +105,7 @@ exact_search begin_exact(ray_start start, exact_aim aim, hit_record hit) {
     search.normal = REAL3(0.0);
     if (HAS_CONES)
         search.blur = disc_error(hit, start.at, direction, search.normal);
-    if (start.left != NO_ITEM) {
+    if (!LEAVES_ROUND(start) && start.left != NO_ITEM) {
         triangle_record left = load_triangle(start.left);
         search.left_body = left.body;
         search.left_normal = triangle_normal(left);
@@ -211,7 +211,7 @@ bool has_edge(triangle_record triangle, REAL3 from, REAL3 to) {
 // Whether the ray certainly passes beside a triangle. Seen along a direction that points to the same side of two triangles,
 // these lie on opposite sides of a common edge; and the ray starts within one of them.
 bool passes_beside(uint item, ray_start start, REAL3 direction) {
-    if (start.left == NO_ITEM)
+    if (LEAVES_ROUND(start) || start.left == NO_ITEM)
         return false;
     triangle_record a = load_triangle(start.left), b = load_triangle(item);
     // Bodies are usually wound one way: their edges run back and forth.
@@ -251,8 +251,6 @@ bool needs_search(exact_search search, ray_doubts doubts, hit_record hit) {
 // EXACT_ITERATIONS, which a ray reaches where a scene is so far away that most of it is the same but for rounding.
 bool retrace_triangles(ray_start start, exact_aim aim, ray_doubts doubts, bool any, inout hit_record hit,
                        inout uint iterations) {
-    if (HAS_CONES && (start.left & ITEM_SPHERE) != 0u)
-        start.left = NO_ITEM;
     if (settle(start, aim.direction, doubts))
         return false;
     exact_search search = begin_exact(start, aim, hit);

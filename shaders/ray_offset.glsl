@@ -22,13 +22,13 @@ ray_start leave(surface s, hit_record hit, REAL3 side) {
     if (alternative_moves())
         return exact_start(at);
 #endif
-    bool is_round = !HAS_TRIANGLES || (HAS_ROUND && (hit.item & ITEM_SPHERE) != 0u);
-    if (HAS_CONES && is_round) {
-        bool outward = (dot3(side, s.geometric) > 0.0) == s.enters;
-        return ray_start(at, 0.0, hit.item, outward ? LEAVES_OUTWARD : LEAVES_INWARD, 0.0);
-    }
-    if (is_round)
+    if (!HAS_TRIANGLES || (HAS_ROUND && (hit.item & ITEM_SPHERE) != 0u)) {
+        if (HAS_CONES) {
+            bool outward = (dot3(side, s.geometric) > 0.0) == s.enters;
+            return ray_start(at, 0.0, hit.item, outward ? LEAVES_OUTWARD : LEAVES_INWARD, 0.0);
+        }
         return exact_start(at);
+    }
     // The error, the displacement of at most sqrt(3) times that, and the rounding of both.
     return ray_start(at, 4.25 * largest3(s.error), hit.item, hit.b1, hit.b2);
 }

@@ -38,17 +38,12 @@ void test_sphere(uint item, bool there, REAL3 origin, REAL3 direction, inout hit
     }
 }
 
-// An item of the tree.
-void test_round(uint item, bool there, ray_start start, REAL3 direction, inout hit_record hit) {
-    if (HAS_CONES && (!HAS_SPHERES || is_frustum(item)))
-        test_frustum(item, there, start, direction, hit);
-    else
-        test_sphere(item, there, start.at, direction, hit);
-}
+// Where the ray of trace_spheres starts, with HAS_CONES.
+ray_start round_start;
 
 // As trace_triangles.
-void trace_spheres(ray_start start, REAL3 direction, bool any, inout hit_record hit, inout uint iterations) {
-    tree_ray ray = make_tree_ray(start.at, direction);
+void trace_spheres(REAL3 origin, REAL3 direction, bool any, inout hit_record hit, inout uint iterations) {
+    tree_ray ray = make_tree_ray(origin, direction);
     STACK(SPHERE_STACK)
     uvec2 group = root_group();
     bool more = true;
@@ -71,7 +66,10 @@ void trace_spheres(ray_start start, REAL3 direction, bool any, inout hit_record 
             items ^= bit;
             // A power of two up to 2^23 is its own exponent.
             uint item = node.first_item + (floatBitsToUint(float(int(bit))) >> 23u) - 127u;
-            test_round(item, there, start, direction, hit);
+            if (HAS_CONES && (!HAS_SPHERES || is_frustum(item)))
+                test_frustum(item, there, round_start, direction, hit);
+            else
+                test_sphere(item, there, origin, direction, hit);
             if (any && hit.item != NO_ITEM) {
                 items = 0u;
                 more = false;

@@ -274,8 +274,10 @@ bool trace_ray(ray_start start, REAL3 direction, bool traced, bool any, inout hi
         if (long_resumes)
             hit = long_hit();
     }
+    if (HAS_CONES)
+        round_start = start;
     if (HAS_ROUND && before_triangles)
-        trace_spheres(start, direction, any, hit, iterations);
+        trace_spheres(start.at, direction, any, hit, iterations);
     if (hit.item == NO_ITEM || (hit.item & ITEM_SPHERE) != 0u)
         sphere = hit;
     if (HAS_TRIANGLES && !(any && hit.item != NO_ITEM) && !(HAS_LONG_RAYS && long_stopped != TREE_NONE))

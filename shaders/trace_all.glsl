@@ -2,8 +2,10 @@
 
 void trace_all(ray_start start, exact_aim aim, bool any, inout hit_record hit, inout uint iterations) {
     REAL3 direction = aim.direction;
+    if (HAS_CONES)
+        round_start = start;
     if (HAS_ROUND)
-        trace_spheres(start, direction, any, hit, iterations);
+        trace_spheres(start.at, direction, any, hit, iterations);
     if (HAS_TRIANGLES && !(any && hit.item != NO_ITEM)) {
         hit_record before = hit;
         ray_doubts doubts = no_doubts();

@@ -29,6 +29,7 @@ struct ray_start {
                  // a sphere or cone, and `at` is exact, too
     REAL b1, b2; // the exact place on that triangle; b1 of a cone: to which side (cones.glsl)
 };
+#define LEAVES_ROUND(start) (HAS_CONES && (start.left & ITEM_SPHERE) != 0u)
 
 // How far rounding may move the t of a hit on a cone's disc: a triangle may lie in the same plane, as a floor does under
 // a column. 0: another hit.

@@ -107,8 +107,10 @@ void gpu_settle(struct gpu *gpu);
 
 // ---- gpu_prune.c
 
-// Removes from a module of `*words` words what the source's constants switch off: blocks, and functions that
-// are then never called. The result is the same; the constants must still be given. false: no memory.
+// Removes from a module of `*words` words what the source's constants switch off, and gives it one form with
+// the constants' values in it: what a module lacks and what is taken out of it leave the same words. The
+// kernel computes the same. A module that it does not understand stays as it is, so the constants must still
+// be given. false: no memory.
 bool gpu_prune(const struct gpu_program_source *source, uint32_t *spirv, size_t *words);
 
 // ---- gpu_pipeline.c

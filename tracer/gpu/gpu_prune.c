@@ -2,86 +2,96 @@
 // lavapipe's compiler inlines all functions into one before it evaluates conditions; NVIDIA's makes a kernel
 // that takes 4 to 7 % longer if it has to find out by itself. Reference: SPIR-V Specification 1.6, sections
 // 2.11 and 3.
+#include "tracer/gpu/gpu_prune.h"
+
 #include "core/heap.h"
-#include "tracer/gpu/gpu_private.h"
+#include "shaders/packed/packed.h"
 
-#include <spirv/unified1/spirv.h>
 #include <stdlib.h>
-#include <string.h>
-
-enum {
-    HEADER_WORDS = 5,
-    BOUND = 3, // the header's word
-};
-
-enum block_state {
-    BLOCK_DEAD,   // nothing leads there
-    BLOCK_MERGE,  // nothing leads there, but a selection or a loop names it as its end
-    BLOCK_REPEAT, // the same as the continue part of the loop whose header is `header`
-    BLOCK_LIVE,
-};
-
-// What is known about an id.
-struct prune_id {
-    bool is_known; // a scalar of 32 bits, or a truth value: `value`
-    uint32_t value;
-    size_t function; // where its function begins; 0: the id is none
-    bool is_called;
-    bool is_kept;    // a word after the type of an instruction that is left: where a result is
-    uint8_t block;   // enum block_state, of a label
-    uint32_t taken;  // of a label: the only one that it continues to; 0: all that it names
-    uint32_t header; // of BLOCK_REPEAT
-    uint32_t spec;   // SpecId + 1; 0: none
-    bool is_seen;    // of a label: its block was looked at
-};
-
-struct prune {
-    uint32_t *words;
-    size_t count;
-    struct prune_id *ids;
-    const struct gpu_program_source *source;
-    bool is_odd; // a block comes before one that leads to it: everything is left as it is
-};
-
-static uint32_t length_of(const uint32_t *i) {
-    return i[0] >> 16;
-}
-
-static uint32_t opcode_of(const uint32_t *i) {
-    return i[0] & 0xffff;
-}
 
 static void know(struct prune *p, uint32_t id, uint32_t value) {
     p->ids[id].is_known = true;
     p->ids[id].value = value;
 }
 
+// The result is another id.
+static void be_same(struct prune *p, uint32_t result, uint32_t id) {
+    if (p->ids[id].is_known)
+        know(p, result, p->ids[id].value);
+    else
+        p->ids[result].same = id;
+}
+
+// Of two numbers. false: it does not know the operation.
+static bool calculate(uint32_t opcode, uint32_t a, uint32_t b, uint32_t *result) {
+    switch (opcode) {
+    case SpvOpIEqual:
+        *result = a == b;
+        return true;
+    case SpvOpINotEqual:
+        *result = a != b;
+        return true;
+    case SpvOpUGreaterThan:
+        *result = a > b;
+        return true;
+    case SpvOpBitwiseAnd:
+        *result = a & b;
+        return true;
+    case SpvOpIAdd:
+        *result = a + b;
+        return true;
+    case SpvOpIMul:
+        *result = a * b;
+        return true;
+    case SpvOpUDiv:
+        *result = b ? a / b : 0;
+        return b != 0;
+    default:
+        return false;
+    }
+}
+
+// Of an operation that one operand decides: where it is `value` that is the result, else the other is.
+static void decide(struct prune *p, uint32_t result, const uint32_t *operands, bool value) {
+    for (int k = 0; k < 2; k++)
+        if (p->ids[operands[k]].is_known && !p->ids[operands[k]].value == !value)
+            know(p, result, value);
+        else if (p->ids[operands[k]].is_known && !p->ids[result].is_known)
+            be_same(p, result, operands[1 - k]);
+}
+
 // The result of an operation whose operands are ids, where these are known.
 static void compute(struct prune *p, uint32_t result, uint32_t opcode, const uint32_t *operands) {
     const struct prune_id *a = &p->ids[operands[0]];
-    const struct prune_id *b = opcode == SpvOpLogicalNot ? a : &p->ids[operands[1]];
-    const bool both = a->is_known && b->is_known;
-    if (opcode == SpvOpLogicalAnd && ((a->is_known && !a->value) || (b->is_known && !b->value)))
-        know(p, result, 0);
-    else if (opcode == SpvOpLogicalOr && ((a->is_known && a->value) || (b->is_known && b->value)))
-        know(p, result, 1);
-    else if (both && opcode == SpvOpLogicalAnd)
-        know(p, result, a->value && b->value);
-    else if (both && opcode == SpvOpLogicalOr)
-        know(p, result, a->value || b->value);
-    else if (both && opcode == SpvOpLogicalNot)
-        know(p, result, !a->value);
-    else if (both && opcode == SpvOpIEqual)
-        know(p, result, a->value == b->value);
-    else if (both && opcode == SpvOpINotEqual)
-        know(p, result, a->value != b->value);
-    else if (both && opcode == SpvOpBitwiseAnd)
-        know(p, result, a->value & b->value);
+    uint32_t value;
+    switch (opcode) {
+    case SpvOpLogicalAnd:
+    case SpvOpLogicalOr:
+        decide(p, result, operands, opcode == SpvOpLogicalOr);
+        break;
+    case SpvOpLogicalNot:
+        if (a->is_known)
+            know(p, result, !a->value);
+        break;
+    case SpvOpSelect:
+        if (a->is_known)
+            be_same(p, result, operands[a->value ? 1 : 2]);
+        break;
+    case SpvOpCopyObject:
+        be_same(p, result, operands[0]);
+        break;
+    default:
+        if (a->is_known && p->ids[operands[1]].is_known &&
+            calculate(opcode, a->value, p->ids[operands[1]].value, &value))
+            know(p, result, value);
+        break;
+    }
 }
 
 static bool is_computed(uint32_t opcode) {
-    return (opcode >= SpvOpLogicalOr && opcode <= SpvOpLogicalNot) || opcode == SpvOpIEqual ||
-           opcode == SpvOpINotEqual || opcode == SpvOpBitwiseAnd;
+    uint32_t value;
+    return (opcode >= SpvOpLogicalOr && opcode <= SpvOpSelect) || opcode == SpvOpCopyObject ||
+           calculate(opcode, 0, 1, &value);
 }
 
 static void know_constant(struct prune *p, const uint32_t *i, uint32_t value) {
@@ -93,7 +103,10 @@ static void know_constant(struct prune *p, const uint32_t *i, uint32_t value) {
 
 // Reads what comes before the functions.
 static void take_global(struct prune *p, const uint32_t *i) {
-    switch (opcode_of(i)) {
+    switch (prune_opcode(i)) {
+    case SpvOpEntryPoint:
+        p->entry = i[2];
+        break;
     case SpvOpDecorate:
         if (i[2] == SpvDecorationSpecId)
             p->ids[i[1]].spec = i[3] + 1;
@@ -108,7 +121,7 @@ static void take_global(struct prune *p, const uint32_t *i) {
         break;
     case SpvOpConstant:
     case SpvOpSpecConstant:
-        if (length_of(i) == 4)
+        if (prune_length(i) == 4)
             know_constant(p, i, i[3]);
         break;
     case SpvOpSpecConstantOp:
@@ -131,7 +144,7 @@ static bool is_edge(const struct prune *p, uint32_t from, uint32_t to) {
 static void compute_phi(struct prune *p, const uint32_t *i, uint32_t label) {
     bool any = false;
     uint32_t value = 0;
-    for (uint32_t k = 3; k + 1 < length_of(i); k += 2) {
+    for (uint32_t k = 3; k + 1 < prune_length(i); k += 2) {
         const struct prune_id *from = &p->ids[i[k + 1]], *operand = &p->ids[i[k]];
         if (!from->is_seen)
             return;
@@ -154,7 +167,7 @@ static void name_block(struct prune *p, uint32_t label, enum block_state state) 
 
 // Where a block continues.
 static void lead(struct prune *p, const uint32_t *i, uint32_t label) {
-    switch (opcode_of(i)) {
+    switch (prune_opcode(i)) {
     case SpvOpBranch:
         name_block(p, i[1], BLOCK_LIVE);
         break;
@@ -167,7 +180,7 @@ static void lead(struct prune *p, const uint32_t *i, uint32_t label) {
         break;
     case SpvOpSwitch:
         name_block(p, i[2], BLOCK_LIVE);
-        for (uint32_t k = 4; k < length_of(i); k += 2)
+        for (uint32_t k = 4; k < prune_length(i); k += 2)
             name_block(p, i[k], BLOCK_LIVE);
         break;
     default:
@@ -177,14 +190,33 @@ static void lead(struct prune *p, const uint32_t *i, uint32_t label) {
 
 // Whether a selection's condition is known: `i` is its OpSelectionMerge, the branch comes next.
 static bool is_decided(const struct prune *p, const uint32_t *i) {
-    const uint32_t *branch = i + length_of(i);
-    return opcode_of(branch) == SpvOpBranchConditional && p->ids[branch[1]].is_known;
+    const uint32_t *branch = i + prune_length(i);
+    return prune_opcode(branch) == SpvOpBranchConditional && p->ids[branch[1]].is_known;
+}
+
+// Whether it holds nothing before the first store: a parameter does.
+static bool is_own_variable(const struct prune *p, size_t at) {
+    const uint32_t *i = p->words + at;
+    return at >= p->functions && prune_opcode(i) == SpvOpVariable && prune_length(i) == 4;
+}
+
+// A variable of a function into which one known value is stored, and nothing else, holds no other.
+static void take_access(struct prune *p, const uint32_t *i) {
+    struct prune_id *variable = &p->ids[i[prune_opcode(i) == SpvOpStore ? 1 : 3]];
+    if (!is_own_variable(p, variable->at) || variable->uses != 1)
+        return;
+    if (prune_opcode(i) == SpvOpStore)
+        variable->holds = i[2];
+    else if (variable->holds && p->ids[variable->holds].is_known)
+        know(p, i[2], p->ids[variable->holds].value);
 }
 
 static void look_at(struct prune *p, const uint32_t *i, uint32_t label) {
-    const uint32_t opcode = opcode_of(i);
+    const uint32_t opcode = prune_opcode(i);
     if (opcode == SpvOpFunctionCall)
         p->ids[i[3]].is_called = true;
+    else if (opcode == SpvOpStore || opcode == SpvOpLoad)
+        take_access(p, i);
     else if (opcode == SpvOpPhi)
         compute_phi(p, i, label);
     else if (is_computed(opcode))
@@ -200,12 +232,21 @@ static void look_at(struct prune *p, const uint32_t *i, uint32_t label) {
     }
 }
 
+// Counts how often variables are used, but for loads.
+static void count_uses(struct prune *p, const uint32_t *i) {
+    for (uint32_t k = 1; k < prune_length(i) && prune_opcode(i) != SpvOpLoad; k++)
+        if (packed_word_of(prune_opcode(i), k) == PACKED_ID && p->words + p->ids[i[k]].at != i)
+            p->ids[i[k]].uses += prune_opcode(i) == SpvOpStore && k == 1 ? 1 : 2;
+}
+
 // A block comes after the one that dominates it, so one look at each is enough.
 static void look_at_function(struct prune *p, size_t at) {
     uint32_t label = 0;
-    for (; opcode_of(p->words + at) != SpvOpFunctionEnd; at += length_of(p->words + at)) {
+    for (size_t k = at; prune_opcode(p->words + k) != SpvOpFunctionEnd; k += prune_length(p->words + k))
+        count_uses(p, p->words + k);
+    for (; prune_opcode(p->words + at) != SpvOpFunctionEnd; at += prune_length(p->words + at)) {
         const uint32_t *i = p->words + at;
-        if (opcode_of(i) == SpvOpLabel) {
+        if (prune_opcode(i) == SpvOpLabel) {
             if (label == 0)
                 name_block(p, i[1], BLOCK_LIVE);
             label = i[1];
@@ -218,14 +259,21 @@ static void look_at_function(struct prune *p, size_t at) {
 
 // glslang writes functions before or after those that call them: repeats until no more are called.
 static void look_at_functions(struct prune *p) {
+    for (uint32_t id = 0; id < p->words[PRUNE_BOUND]; id++) {
+        struct prune_id *one = &p->ids[id];
+        one->is_called = id == p->entry;
+        one->is_looked = one->is_seen = false;
+        one->block = BLOCK_DEAD;
+        one->taken = one->uses = one->holds = 0;
+    }
     for (bool more = true; more;) {
         more = false;
-        for (uint32_t id = 0; id < p->words[BOUND]; id++) {
+        for (uint32_t id = 0; id < p->words[PRUNE_BOUND]; id++) {
             struct prune_id *function = &p->ids[id];
-            if (!function->is_called || function->function == 0)
+            if (!function->is_called || function->is_looked)
                 continue;
-            look_at_function(p, function->function);
-            function->function = 0;
+            look_at_function(p, function->at);
+            function->is_looked = true;
             more = true;
         }
     }
@@ -233,128 +281,96 @@ static void look_at_functions(struct prune *p) {
 
 // ---- what is left of the module
 
-struct output {
-    uint32_t *words; // reuses the module's words: the result is never longer
-    size_t count;
-};
-
-static void put(struct output *out, uint32_t word) {
-    out->words[out->count++] = word;
-}
-
-static void put_phi(const struct prune *p, struct output *out, const uint32_t *i, uint32_t label) {
-    const uint32_t length = length_of(i);
-    const size_t at = out->count;
-    put(out, 0);
-    put(out, i[1]);
-    put(out, i[2]);
-    for (uint32_t k = 3; k + 1 < length; k += 2) {
-        const uint32_t value = i[k], from = i[k + 1];
-        if (!is_edge(p, from, label) && p->ids[from].block != BLOCK_REPEAT)
+static void drop_edges(const struct prune *p, uint32_t *phi, uint32_t label) {
+    uint32_t count = 3;
+    for (uint32_t k = 3; k + 1 < prune_length(phi); k += 2) {
+        if (!is_edge(p, phi[k + 1], label) && p->ids[phi[k + 1]].block != BLOCK_REPEAT)
             continue;
-        put(out, value);
-        put(out, from);
+        phi[count++] = phi[k];
+        phi[count++] = phi[k + 1];
     }
-    out->words[at] = (uint32_t)(out->count - at) << 16 | SpvOpPhi;
+    prune_shorten(phi, count, SpvOpPhi);
 }
 
-static void put_instruction(struct prune *p, struct output *out, const uint32_t *i, uint32_t label) {
-    const uint32_t opcode = opcode_of(i), length = length_of(i);
-    if (length > 2)
-        p->ids[i[2] < p->words[BOUND] ? i[2] : 0].is_kept = true;
-    if (opcode == SpvOpSelectionMerge && is_decided(p, i))
-        return;
-    if (opcode == SpvOpPhi) {
-        put_phi(p, out, i, label);
+static void change(const struct prune *p, uint32_t *i, uint32_t label) {
+    const uint32_t opcode = prune_opcode(i);
+    if (opcode == SpvOpSelectionMerge && is_decided(p, i)) {
+        prune_drop(i);
+    } else if (opcode == SpvOpPhi) {
+        drop_edges(p, i, label);
     } else if (opcode == SpvOpBranchConditional && p->ids[label].taken) {
-        put(out, 2u << 16 | SpvOpBranch);
-        put(out, p->ids[label].taken);
-    } else {
-        memmove(out->words + out->count, i, length * sizeof *i);
-        out->count += length;
+        i[1] = p->ids[label].taken;
+        prune_shorten(i, 2, SpvOpBranch);
     }
 }
 
-static size_t block_length(const uint32_t *label) {
-    const uint32_t *end = label + length_of(label);
-    while (opcode_of(end) != SpvOpLabel && opcode_of(end) != SpvOpFunctionEnd)
-        end += length_of(end);
-    return (size_t)(end - label);
-}
-
-// A block that nothing leads to, but which may have to exist.
-static void put_empty(const struct prune *p, struct output *out, uint32_t label) {
+// In a block that nothing leads to, but which may have to exist, only its end is left.
+static void change_empty(const struct prune *p, uint32_t *i, uint32_t label) {
     const struct prune_id *block = &p->ids[label];
-    if (block->block == BLOCK_DEAD)
-        return;
-    put(out, 2u << 16 | SpvOpLabel);
-    put(out, label);
-    if (block->block == BLOCK_MERGE) {
-        put(out, 1u << 16 | SpvOpUnreachable);
+    const uint32_t opcode = prune_opcode(i);
+    if (opcode < SpvOpBranch || opcode > SpvOpUnreachable) {
+        if (opcode != SpvOpLabel)
+            prune_drop(i);
+    } else if (block->block == BLOCK_MERGE) {
+        prune_shorten(i, 1, SpvOpUnreachable);
     } else {
-        put(out, 2u << 16 | SpvOpBranch);
-        put(out, block->header);
+        i[1] = block->header;
+        prune_shorten(i, 2, SpvOpBranch);
     }
 }
 
-static size_t put_functions(struct prune *p, size_t at) {
-    struct output out = {p->words, at};
-    bool called = false;
+// false: nothing was left to take out.
+static bool take_out(const struct prune *p) {
+    bool called = false, any = false;
     uint32_t label = 0;
-    for (size_t length; at < p->count; at += length) {
-        const uint32_t *i = p->words + at, opcode = opcode_of(i);
-        length = length_of(i);
-        if (opcode == SpvOpFunction)
+    for (size_t at = p->functions, length; at < p->count; at += length) {
+        uint32_t *i = p->words + at;
+        const uint32_t before = i[0];
+        length = prune_length(i);
+        if (prune_opcode(i) == SpvOpFunction)
             called = p->ids[i[2]].is_called;
-        if (opcode == SpvOpLabel)
+        if (prune_opcode(i) == SpvOpLabel)
             label = i[1];
-        if (called && opcode == SpvOpLabel && p->ids[label].block != BLOCK_LIVE) {
-            length = block_length(i);
-            put_empty(p, &out, label);
-        } else if (called) {
-            put_instruction(p, &out, i, label);
-        }
+        if (prune_opcode(i) == SpvOpFunctionEnd)
+            label = 0;
+        if (!called || (label && p->ids[label].block == BLOCK_DEAD))
+            prune_drop(i);
+        else if (label && p->ids[label].block != BLOCK_LIVE)
+            change_empty(p, i, label);
+        else
+            change(p, i, label);
+        any |= i[0] != before;
     }
-    return out.count;
+    return any;
 }
 
-// Drops the decorations of removed results.
-static size_t drop_decorations(struct prune *p, size_t functions, size_t count) {
-    struct output out = {p->words, HEADER_WORDS};
-    for (size_t at = HEADER_WORDS, length; at < functions; at += length) {
+static void index_module(struct prune *p) {
+    for (size_t at = PRUNE_HEADER_WORDS; at < p->count; at += prune_length(p->words + at)) {
         const uint32_t *i = p->words + at;
-        length = length_of(i);
-        if (opcode_of(i) == SpvOpDecorate && i[2] == SpvDecorationNoContraction && !p->ids[i[1]].is_kept)
-            continue;
-        memmove(out.words + out.count, i, length * sizeof *i);
-        out.count += length;
+        const uint32_t result = prune_result(i);
+        p->is_odd |= !prune_understands(i);
+        if (result)
+            p->ids[result].at = (uint32_t)at;
+        if (prune_opcode(i) == SpvOpFunction && p->functions == p->count)
+            p->functions = at;
+        if (p->functions == p->count && !p->is_odd)
+            take_global(p, i);
     }
-    memmove(out.words + out.count, p->words + functions, (count - functions) * sizeof *p->words);
-    return out.count + count - functions;
 }
 
 bool gpu_prune(const struct gpu_program_source *source, uint32_t *spirv, size_t *words) {
-    struct prune p = {.words = spirv, .count = *words, .source = source};
-    p.ids = heap_zeroed(spirv[BOUND], sizeof *p.ids);
+    struct prune p = {.words = spirv, .count = *words, .functions = *words, .source = source};
+    p.ids = heap_zeroed(spirv[PRUNE_BOUND], sizeof *p.ids);
     if (!p.ids)
         return false;
-    size_t functions = *words;
-    for (size_t at = HEADER_WORDS; at < *words; at += length_of(spirv + at)) {
-        const uint32_t *i = spirv + at;
-        if (opcode_of(i) == SpvOpFunction) {
-            functions = at < functions ? at : functions;
-            p.ids[i[2]].function = at;
-        } else if (functions == *words) {
-            if (opcode_of(i) == SpvOpEntryPoint)
-                p.ids[i[2]].is_called = true;
-            take_global(&p, i);
-        }
-    }
-    look_at_functions(&p);
-    if (!p.is_odd) {
-        const size_t count = put_functions(&p, functions);
-        *words = drop_decorations(&p, functions, count);
-    }
+    index_module(&p);
+    if (!p.is_odd)
+        look_at_functions(&p);
+    const bool understood = !p.is_odd;
+    while (!p.is_odd && take_out(&p)) // stores were among it: more is known then
+        look_at_functions(&p);
+    const bool done = !understood || prune_tidy(&p);
+    *words = p.count;
     free(p.ids);
-    return true;
+    return done;
 }
