@@ -1,6 +1,8 @@
 // Vertex normals of smooth models.
 #include "assets/mesh.h"
 
+#include "core/angle.h"
+#include "core/forest.h"
 #include "core/heap.h"
 
 #include <math.h>
@@ -9,7 +11,6 @@
 // How much sharper than the crease angle an edge may be, in degrees: what positions of seven digits leave
 // open.
 #define CREASE_SLACK 1e-3
-#define DEGREES      57.295779513082320876798154814105
 
 // Unit normal of a face times its angle at each corner (Thürmer and Wüthrich 1998, "Computing Vertex Normals
 // from Polygonal Facets"). Zero for faces without area.
@@ -95,21 +96,8 @@ static size_t list_spokes(const struct mesh *mesh, struct spoke *spokes) {
     return count;
 }
 
-// Corners whose faces go into one normal form a tree; the root is the first of them.
-static uint32_t root_of(uint32_t *parent, uint32_t corner) {
-    while (parent[corner] != corner)
-        corner = parent[corner] = parent[parent[corner]];
-    return corner;
-}
-
-static void join(uint32_t *parent, uint32_t a, uint32_t b) {
-    a = root_of(parent, a);
-    b = root_of(parent, b);
-    parent[a > b ? a : b] = a > b ? b : a;
-}
-
 static bool is_sharp(vec3 a, vec3 b, double crease_angle) {
-    return atan2(vec3_length(vec3_cross(a, b)), vec3_dot(a, b)) * DEGREES > crease_angle + CREASE_SLACK;
+    return atan2(vec3_length(vec3_cross(a, b)), vec3_dot(a, b)) > (crease_angle + CREASE_SLACK) * RADIANS;
 }
 
 // Normals of all corners: of the faces around a position that edges which are not sharp join, one after the
@@ -121,8 +109,7 @@ static vec3 *creased(const struct mesh *mesh, double crease_angle, struct arena 
     uint32_t *parent = ARENA_ARRAY(arena, uint32_t, corners);
     struct spoke *spokes = ARENA_ARRAY(arena, struct spoke, heap_times(2, corners));
     const size_t count = list_spokes(mesh, spokes);
-    for (size_t i = 0; i < corners; i++)
-        parent[i] = (uint32_t)i;
+    forest_init(parent, corners);
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
         if (mesh_has_area(mesh, t))
             corner_normals(mesh, t, own + 3 * (size_t)t);
@@ -130,15 +117,17 @@ static vec3 *creased(const struct mesh *mesh, double crease_angle, struct arena 
         const struct spoke *a = &spokes[i - 1], *b = &spokes[i];
         if (a->vertex == b->vertex && a->end == b->end &&
             !is_sharp(own[a->corner], own[b->corner], crease_angle))
-            join(parent, a->corner, b->corner);
+            forest_join(parent, a->corner, b->corner);
     }
     for (size_t i = 0; i < corners; i++) {
-        const uint32_t root = root_of(parent, (uint32_t)i);
+        const uint32_t root = forest_root(parent, (uint32_t)i);
         sum[root] = vec3_add(sum[root], own[i]);
         weight[root] += vec3_length(own[i]);
     }
-    for (size_t i = 0; i < corners; i++)
-        own[i] = unit_or_zero(sum[parent[i]], weight[parent[i]]);
+    for (size_t i = 0; i < corners; i++) {
+        const uint32_t root = forest_root(parent, (uint32_t)i);
+        own[i] = unit_or_zero(sum[root], weight[root]);
+    }
     return own;
 }
 

@@ -3,6 +3,7 @@
 #include "diag/codes/rule.h"
 #include "lint/lint_internal.h"
 
+#include "core/angle.h"
 #include "grammar/ir.h"
 
 #include <math.h>
@@ -11,7 +12,6 @@
 // the range of its pixels, a thin-walled bowl by 3 % (bench/smooth_glass.sh).
 #define OFF_MOST  6.0
 #define PART_MOST 0.25 // of the surface
-#define DEGREES   57.295779513082320876798154814105
 
 struct facets {
     double area, coarse; // of the mesh; of the triangles that differ by more than OFF_MOST
@@ -28,8 +28,8 @@ static void look_at(const struct mesh *mesh, uint32_t triangle, const vec3 norma
     double off = 0;
     // Turned normals count as the device takes them: on the face's side.
     for (int k = 0; k < 3; k++)
-        off = fmax(off, atan2(vec3_length(vec3_cross(face, normals[k])), fabs(vec3_dot(face, normals[k]))) *
-                            DEGREES);
+        off = fmax(off, atan2(vec3_length(vec3_cross(face, normals[k])), fabs(vec3_dot(face, normals[k]))) /
+                            RADIANS);
     facets->area += area;
     facets->most = fmax(facets->most, off);
     if (off <= OFF_MOST)

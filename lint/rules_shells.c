@@ -2,6 +2,7 @@
 #include "diag/codes/rule.h"
 #include "lint/lint_internal.h"
 
+#include "core/forest.h"
 #include "core/heap.h"
 
 #include <stdlib.h>
@@ -42,32 +43,18 @@ struct shells {
     struct shell *items; // by root
 };
 
-static uint32_t root_of(uint32_t *parent, uint32_t i) {
-    while (parent[i] != i) {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    return i;
-}
-
 static uint32_t shell_of(const struct shells *shells, uint32_t triangle) {
-    return root_of(shells->parent, shells->mesh->merged[shells->mesh->triangles[triangle].corners[0]]);
+    return forest_root(shells->parent, shells->mesh->merged[shells->mesh->triangles[triangle].corners[0]]);
 }
 
 static void connect(struct lint *lint, struct shells *shells) {
     const struct mesh *mesh = shells->mesh;
     shells->parent = ARENA_ARRAY(lint->arena, uint32_t, mesh->position_count);
-    for (uint32_t i = 0; i < mesh->position_count; i++)
-        shells->parent[i] = i;
+    forest_init(shells->parent, mesh->position_count);
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
         for (int k = 0; k < 2; k++) {
             const uint32_t *c = mesh->triangles[t].corners;
-            uint32_t a = root_of(shells->parent, mesh->merged[c[k]]);
-            uint32_t b = root_of(shells->parent, mesh->merged[c[k + 1]]);
-            if (a < b)
-                shells->parent[b] = a;
-            else
-                shells->parent[a] = b;
+            forest_join(shells->parent, mesh->merged[c[k]], mesh->merged[c[k + 1]]);
         }
 }
 

@@ -1,5 +1,6 @@
 // What a mesh encloses and how it is shaded: closedness, volume, the outward side, areas, vertex normals.
 #include "assets_scene.h"
+#include "core/angle.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -223,6 +224,32 @@ static void a_creased_cube_has_edges(void **state) {
     assets_scene_end(s);
 }
 
+// Eight faces around a peak. Edges come in the order of their ends: pairs of faces are joined, then pairs of
+// pairs, then all.
+static void faces_are_joined_in_any_order(void **state) {
+    (void)state;
+    static const int ends[9] = {1, 3, 5, 7, 2, 6, 4, 0, 8}; // the spoke of each vertex on the rim
+    int vertex[9];
+    struct assets_scene *s = assets_scene_begin();
+    struct strbuf text;
+    strbuf_init(&text);
+    strbuf_cstr(&text, "v 0 0.25 0\n");
+    for (int i = 0; i < 9; i++) {
+        const double angle = 40 * RADIANS * ends[i];
+        strbuf_format(&text, "v %.17g 0 %.17g\n", cos(angle), -sin(angle));
+        vertex[ends[i]] = i + 2;
+    }
+    for (int i = 0; i < 8; i++)
+        strbuf_format(&text, "f 1 %d %d\n", vertex[i], vertex[i + 1]);
+    const struct mesh *mesh = assets_scene_mesh(s, text.data);
+    const vec3 *creased = mesh_smooth_normals(mesh, 40, &s->arena),
+               *all = mesh_smooth_normals(mesh, 180, &s->arena);
+    for (uint32_t i = 0; i < 3 * 8; i++)
+        assert_near(creased[i], all[i]);
+    strbuf_finish(&text);
+    assets_scene_end(s);
+}
+
 // Two flat faces, and a wing that an edge of 60 degrees joins to one of them.
 static void creases_end_inside_a_fan(void **state) {
     (void)state;
@@ -382,6 +409,7 @@ int main(void) {
         cmocka_unit_test(a_smooth_cube_looks_along_its_diagonals),
         cmocka_unit_test(a_creased_cube_has_edges),
         cmocka_unit_test(creases_end_inside_a_fan),
+        cmocka_unit_test(faces_are_joined_in_any_order),
         cmocka_unit_test(angles_weigh),
         cmocka_unit_test(split_vertices_are_summed_too),
         cmocka_unit_test(normals_of_the_file_are_kept),
