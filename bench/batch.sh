@@ -21,7 +21,7 @@ spheres:
   - {center: [-0.9, 0, 0], radius: 0.9, material: blue}
   - {center: [1, 0, 1], radius: 0.7, material: glass}
 S
-turn="camera.position=[{6*sin(tau*frame/100)}, 1, {6*cos(tau*frame/100)}]"
+turn="camera.position=[{6*sin(360*frame/100)}, 1, {6*cos(360*frame/100)}]"
 
 # timed NAME command...: adds a line "NAME processor wall tracing"
 timed() {

@@ -6,6 +6,12 @@ set(CMAKE_C_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 
+# Where ccache is installed, a tree that was built before is built again in a minute.
+find_program(GLINT_CCACHE ccache)
+if(GLINT_CCACHE AND NOT CMAKE_C_COMPILER_LAUNCHER AND NOT EMSCRIPTEN)
+  set(CMAKE_C_COMPILER_LAUNCHER ${GLINT_CCACHE})
+endif()
+
 option(GLINT_WERROR "Treat warnings as errors" OFF)
 option(GLINT_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 option(GLINT_DEVICE "Draw on devices; without it glint checks, and draws by the reference, and needs neither Vulkan nor glslang" ON)

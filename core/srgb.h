@@ -4,8 +4,13 @@
 #ifndef GLINT_CORE_SRGB_H
 #define GLINT_CORE_SRGB_H
 
+#include <stdint.h>
+
 // From a displayed value to linear light.
 double srgb_decode(double displayed);
+// The same of a byte, 0 to 255, without the C library's pow: the same bits on every platform, and within
+// two units in the last place.
+double srgb_decode_byte(uint32_t byte);
 // From linear light to a displayed value.
 double srgb_encode(double linear);
 

@@ -2,6 +2,8 @@
 #ifndef GLINT_CORE_VEC3_H
 #define GLINT_CORE_VEC3_H
 
+#include "core/turn.h"
+
 #include <math.h>
 #include <stdbool.h>
 
@@ -144,22 +146,8 @@ struct vec3_turn {
     double sine, cosine;
 };
 
-// Reduced to -45..45 degrees without rounding (remquo is exact), so quarter turns are exact.
 static inline struct vec3_turn vec3_turn_of(double degrees) {
-    int quarter;
-    double rest = remquo(degrees, 90, &quarter) * 0.017453292519943295769 /* pi / 180 */;
-    double s = sin(rest);
-    double c = cos(rest);
-    switch (quarter & 3) {
-    case 0:
-        return (struct vec3_turn){s, c};
-    case 1:
-        return (struct vec3_turn){c, -s};
-    case 2:
-        return (struct vec3_turn){-s, -c};
-    default:
-        return (struct vec3_turn){-c, s};
-    }
+    return (struct vec3_turn){turn_sine(degrees), turn_cosine(degrees)};
 }
 
 // Rz·Ry·Rx of angles in degrees; exact for multiples of 90.

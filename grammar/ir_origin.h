@@ -60,8 +60,7 @@ struct ir_origin {
     struct {
         int32_t frames; // 0: nothing moves
         double rate;
-        unsigned inexact; // inexact parts of its expressions: core/expression.h
-    } motion;             // the animation's settings, kept after a frame is taken
+    } motion; // the animation's settings, kept after a frame is taken
 };
 
 void ir_origin_init(struct ir_origin *origin, struct arena *arena);

@@ -1,4 +1,4 @@
-// Text of one to four values, SCHEMA_TEXT_VALUES: "30", "0, 1, 6", "#c08050", "4*cos(tau*time), 1, 0". Commas
+// Text of one to four values, SCHEMA_TEXT_VALUES: "30", "0, 1, 6", "#c08050", "4*cos(90*time), 1, 0". Commas
 // inside parentheses belong to an expression.
 //
 // Thread safety: pure except for `out`.

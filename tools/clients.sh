@@ -5,11 +5,14 @@
 # a test whose program is missing is skipped, by name. `. tools/clients.env` names the folders to a shell.
 set -eu
 cd "$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)"
-packages="chromium emscripten dpkg-dev jing emacs-nox elpa-eglot elpa-yaml-mode neovim tmux vim pre-commit ffmpeg slurm-wlm munge
+packages="ccache chromium emscripten dpkg-dev jing emacs-nox elpa-eglot elpa-yaml-mode neovim tmux vim pre-commit ffmpeg slurm-wlm munge
 parallel povray tachyon libembree-dev mmdebstrap lintian"
 command -v node >/dev/null && command -v npm >/dev/null || packages="$packages nodejs npm"
 tools/setup.sh test
 tools/setup.sh packages $packages
+# Debian's emscripten calls the first python3 that it finds for every file: a wrapper of another one takes twice the time.
+EMSDK_PYTHON=/usr/bin/python3
+export EMSDK_PYTHON
 
 # made FOLDER SOURCES COMMAND...: runs the command unless FOLDER was made by it from the same sources.
 made() {
@@ -34,11 +37,16 @@ npm_clients() {
     (cd build/clients && npm ci --ignore-scripts --no-audit --no-fund)
     chmod +x build/clients/node_modules/@microsoft/sarif-multitool-*/Sarif.Multitool
 }
+# Two at a time: what needs the libraries for the web waits for them; page and extension share a build.
+made web-root 'tools/web.sh tools/apt_apart.sh' tools/web.sh &
+web=$!
 made clients tools/clients/package-lock.json npm_clients
-made web-root 'tools/web.sh tools/apt_apart.sh' tools/web.sh
 made i386 'tools/i386.sh tools/apt_apart.sh' tools/i386.sh
 made editors-root 'tools/editors.sh tools/apt_apart.sh' tools/editors.sh
+wait $web
+made webgpu-root web/gpu/package-lock.json tools/webgpu.sh &
+webgpu=$!
 made page-root web/page/package-lock.json tools/page.sh
-made webgpu-root web/gpu/package-lock.json tools/webgpu.sh
 made vscode-root web/vscode/package-lock.json tools/vscode.sh
 made site-root web/site/package-lock.json tools/site.sh
+wait $webgpu

@@ -209,17 +209,6 @@ static bool is_frame_of_file(const struct loader *loader, const struct ir_animat
     return loader->input->sources->items[at.source].kind != SOURCE_KIND_OPTION;
 }
 
-static unsigned inexact_of(const struct ir_animation *animation) {
-    unsigned used = 0;
-    for (uint32_t i = 0; i < animation->tracks.count; i++) {
-        const struct ir_track *track = &animation->tracks.items[i];
-        used |= expression_inexact(track->value);
-        for (uint32_t k = 0; k < track->keys.count; k++)
-            used |= expression_inexact(track->keys.items[k].value);
-    }
-    return used;
-}
-
 void animate_scene(struct loader *loader, struct ir_scene *scene) {
     const struct ir_animation *animation = &scene->animation;
     const uint32_t row = (uint32_t)schema_find_row(&SCHEMA_SCENE, STR("animation"));
@@ -236,7 +225,6 @@ void animate_scene(struct loader *loader, struct ir_scene *scene) {
     if (is_good && animation->tracks.count) {
         loader->output->origin.motion.frames = animation->frames;
         loader->output->origin.motion.rate = animation->rate;
-        loader->output->origin.motion.inexact |= inexact_of(animation);
     }
     if (is_good && animation->tracks.count && (!has_frame || is_frame_of_file(loader, animation))) {
         find_elements(&motion);

@@ -1,5 +1,6 @@
 // Tracks as curves over numbers of the scene.
 #include "diag/codes/binding.h"
+#include "diag/diag_expression.h"
 #include "parser/stages/animate.h"
 
 #include "core/heap.h"
@@ -7,6 +8,7 @@
 #include "core/srgb.h"
 #include "grammar/ir_values.h"
 #include "parser/bind/say.h"
+#include "parser/tree/mend.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -136,75 +138,73 @@ static bool wrong_count(const struct motion *motion, const struct moving *m, spa
     return false;
 }
 
-// The place of a part of the text, if the file has it literally.
-static span part_of(const struct motion *motion, span at, str part, size_t begin, size_t end) {
-    const str written = source_text(motion->loader->input->sources, at);
-    for (size_t i = 0; part.len && i + part.len <= written.len; i++)
-        if (memcmp(written.ptr + i, part.ptr, part.len) == 0)
-            return (span){at.source, at.begin + (uint32_t)(i + begin),
-                          at.begin + (uint32_t)(i + (end < part.len ? end : part.len))};
-    return at;
-}
-
-static bool read_hex(str text, double rgb[3]) {
-    if (text.len != 7 || text.ptr[0] != '#')
-        return false;
-    for (size_t i = 1; i < 7; i++)
-        if (!memchr("0123456789abcdefABCDEF", text.ptr[i], 22))
-            return false;
-    char digits[8] = {0};
-    memcpy(digits, text.ptr + 1, 6);
-    const unsigned long hex = strtoul(digits, NULL, 16);
-    for (int i = 0; i < 3; i++)
-        rgb[i] = (double)(hex >> (16 - 8 * i) & 255) / 255;
-    return true;
+static bool read_hex(str text, uint32_t *hex) {
+    return text.len == 7 && text.ptr[0] == '#' && mend_hex_digits(str_slice(text, 1, 7), hex);
 }
 
 static bool bad_value(const struct motion *motion, span at, str text, const struct expression_fault *fault,
                       int32_t frame) {
-    struct strbuf names;
-    const span place = part_of(motion, at, text, fault->begin, fault->end);
-    if (frame > 0)
-        diag_add(sink(motion), DIAG_TRACK_VALUE, place, "%s, in frame %d", fault->what, (int)frame);
-    else
-        diag_add(sink(motion), DIAG_TRACK_VALUE, place, "%s", fault->what);
-    strbuf_init(&names);
-    expression_names(&names);
-    diag_help(sink(motion), "an expression has numbers, + - * / %% ^ and %.*s", STR_ARG(strbuf_view(&names)));
-    strbuf_finish(&names);
+    const char *suffix = frame > 0 ? arena_format(scratch(motion), ", in frame %d", (int)frame).ptr : "";
+    const struct diag_expression expression = {.text = text, .at = at, .suffix = suffix};
+    diag_expression_fault(sink(motion), motion->loader->input->sources, DIAG_TRACK_VALUE, &expression, fault);
+    return false;
+}
+
+static bool not_a_number(const struct motion *motion, span at, str text, enum expression_type type) {
+    const struct diag_expression expression = {.text = text, .at = at};
+    diag_add(sink(motion), DIAG_TRACK_VALUE,
+             diag_expression_part(motion->loader->input->sources, &expression, 0, text.len),
+             "this is %s; it must be a number", expression_type_name(type));
     return false;
 }
 
 static bool compile(const struct motion *motion, const struct moving *m, str text, span at, int32_t frame,
                     struct moving_text *out) {
+    bool all_numbers = true;
     str rest = text;
     *out = (struct moving_text){0};
-    if (m->color && read_hex(text, out->constant)) {
-        if (motion->scene->image.transfer != IR_TRANSFER_SRGB)
-            return true;
-        motion->loader->output->origin.motion.inexact |= EXPRESSION_INEXACT_HEX; // by pow
-        for (int i = 0; i < 3; i++)
-            out->constant[i] = srgb_decode(out->constant[i]);
+    uint32_t hex;
+    if (m->color && read_hex(text, &hex)) {
+        for (int i = 0; i < 3; i++) {
+            const uint32_t byte = hex >> (16 - 8 * i) & 255;
+            out->constant[i] =
+                motion->scene->image.transfer == IR_TRANSFER_SRGB ? srgb_decode_byte(byte) : byte / 255.0;
+        }
         return true;
     }
     for (; out->count < CURVE_WIDTH_MOST && ir_values_next(&rest, &out->parts[out->count]); out->count++) {
         struct expression_fault fault;
         const str part = out->parts[out->count];
-        if (!expression_compile(part, scratch(motion), &out->values[out->count], &fault))
+        if (!expression_compile(part, NULL, scratch(motion), &out->values[out->count], &fault))
             return bad_value(motion, at, part, &fault, frame);
+        all_numbers = all_numbers && out->values[out->count].type == EXPRESSION_NUMBER;
     }
+    if (out->count == 1 && out->values[0].type == EXPRESSION_TRIPLE && m->width == 3)
+        return true;
+    for (uint32_t i = 0; i < out->count && !all_numbers; i++)
+        if (out->values[i].type != EXPRESSION_NUMBER)
+            return not_a_number(motion, at, out->parts[i], out->values[i].type);
     return out->count == m->width || (out->count == 1 && m->fills) || wrong_count(motion, m, at, out->count);
 }
 
 static bool evaluate(const struct motion *motion, const struct moving *m, const struct moving_text *text,
                      span at, int32_t frame, double out[CURVE_WIDTH_MOST]) {
-    const struct expression_at when = {.frame = frame, .time = frame / motion->animation->rate};
+    const struct expression_at when = {.frame = frame,
+                                       .time = frame / motion->animation->rate,
+                                       .decodes = motion->scene->image.transfer == IR_TRANSFER_SRGB};
     struct expression_fault fault;
     if (text->count == 0)
         memcpy(out, text->constant, sizeof text->constant);
-    for (uint32_t i = 0; i < text->count; i++)
-        if (!expression_at(&text->values[i], &when, &out[i], &fault))
+    for (uint32_t i = 0; i < text->count; i++) {
+        double value[EXPRESSION_WIDTH];
+        if (!expression_at(&text->values[i], &when, value, &fault))
             return bad_value(motion, at, text->parts[i], &fault, frame);
+        if (text->values[i].type == EXPRESSION_TRIPLE) {
+            memcpy(out, value, m->width * sizeof *value);
+            return true;
+        }
+        out[i] = value[0];
+    }
     for (uint32_t i = text->count; text->count == 1 && i < m->width; i++)
         out[i] = out[0];
     return true;
@@ -329,7 +329,7 @@ static bool has_one_form(const struct motion *motion, const struct ir_track *tra
              "a track needs keys, or a value");
     diag_help(sink(motion),
               "for example keys: [{frame: 0, value: 0}, {frame: 50, value: 1}], or a value such "
-              "as sin(tau*time)");
+              "as 90*time");
     return false;
 }
 

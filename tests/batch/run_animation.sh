@@ -20,7 +20,7 @@ animation:
   frames: 20
   rate: 10
   tracks:
-    camera.position: [6*sin(tau*frame/20), 0.5, 6*cos(tau*frame/20)]
+    camera.position: [6*sin(360*frame/20), 0.5, 6*cos(360*frame/20)]
     models[face].translation.x: {interpolation: ease, loop: mirror, keys: [{frame: 0, value: 0.9}, {frame: 8, value: 1.9}]}
     materials.red.diffuse_color: {keys: [{frame: 0, value: "#404040"}, {frame: 10, value: [0.25, 0.5, 1]}]}
     spheres[ball].radius: 0.9 + time/10

@@ -18,7 +18,7 @@ S
 sed 's/#1020ff/#10ff20/' scene.yaml >other.yaml
 
 # What is wrong with the command line is said at its place, and nothing is rendered.
-turn='cameras.front.position=[{6*sin(tau*frame/8)}, 0.5, {6*cos(tau*frame/8)}]'
+turn='cameras.front.position=[{6*sin(360*frame/8)}, 0.5, {6*cos(360*frame/8)}]'
 tells 'frames that nothing moves' 2 'nothing depends on the frame' "$glint" render scene.yaml --frames 0..3 -o 'o.%d.png'
 tells 'frames backwards' 2 'ends before it begins' "$glint" render scene.yaml --frames 3..0
 tells 'no frames' 2 'A\.\.B:STEP' "$glint" render scene.yaml --frames 1..x

@@ -169,13 +169,6 @@ expect "convert to JSON" 0 - - "$glint" convert good.yaml good.json
 expect "JSON is good" 0 - - "$glint" check good.json
 "$glint" inspect --ir good.json >c.ir
 expect "and the same" 0 - - cmp a.ir c.ir
-sed '1a animation: {frames: 9, tracks: {camera.fov: "40+sin(frame)^2"}}' good.yaml >turn.yaml
-expect "inspect --ir says what depends on the C library" 0 '^# The last digit of what moves by sin, \^ depends' - \
-    "$glint" inspect --ir turn.yaml --frame 3
-sed '1a animation: {frames: 9, tracks: {"background.color": {keys: [{frame: 0, value: "#102030"}, {frame: 8, value: "#ffffff"}]}}}\nbackground: {color: "#000000"}' good.yaml >fade.yaml
-expect "colours that are decoded too" 0 '^# The last digit of what moves by #rrggbb depends' - "$glint" inspect --ir fade.yaml --frame 3 --set image.transfer=srgb
-expect "but not those that are taken as they are" 1 - - sh -c '"$1" inspect --ir fade.yaml --frame 3 --set image.transfer=none | grep "^#"' - "$glint"
-expect "nothing of it without a track" 1 - - grep '^#' a.ir
 cp good.yaml itself.yaml
 expect "convert onto itself" 2 - 'command-line:1:27: error: OUT is the same file as IN' "$glint" convert itself.yaml ./itself.yaml
 expect "which stays" 0 - - cmp good.yaml itself.yaml

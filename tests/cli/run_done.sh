@@ -13,7 +13,7 @@ lights: [{position: [-5, 8, 5]}]
 materials: {blue: {diffuse_color: "#1020ff"}}
 spheres: [{center: [-0.9, 0, 0], radius: 0.9, material: blue}]
 S
-turn='cameras.front.position=[{6*sin(tau*frame/8)}, 0.5, {6*cos(tau*frame/8)}]'
+turn='cameras.front.position=[{6*sin(360*frame/8)}, 0.5, {6*cos(360*frame/8)}]'
 
 # ---- what does not go together
 expect 'an audit' 2 - "'--audit' needs a picture that is rendered now" "$glint" render scene.yaml --skip-done --audit -o a.png

@@ -15,7 +15,7 @@ lights: [{position: [-5, 8, 5]}]
 materials: {blue: {diffuse_color: "#1020ff"}}
 spheres: [{center: [-0.9, 0, 0], radius: 0.9, material: blue}]
 S
-turn='camera.position=[{6*sin(tau*frame/8)}, 0.5, {6*cos(tau*frame/8)}]'
+turn='camera.position=[{6*sin(360*frame/8)}, 0.5, {6*cos(360*frame/8)}]'
 
 # ---- what is refused
 expect 'an engine' 2 - "there is no engine 'pbs'" "$glint" farm pbs scene.yaml

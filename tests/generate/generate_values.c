@@ -189,8 +189,14 @@ str generate_target(struct generator *g) {
 
 // One number, or an expression, near the middle of 0 and 1.
 str generate_moving(struct generator *g) {
-    static const char *const texts[] = {"0.5 + 0.1*sin(tau*time)", "mix(0.4, 0.6, 0.25)", "max(0.5,0.4)",
-                                        "0.5", "1/2"};
+    static const char *const texts[] = {"0.5 + 0.1*sin(360*time)",
+                                        "mix(0.4, 0.6, 0.25)",
+                                        "max(0.5,0.4)",
+                                        "0.5",
+                                        "1/2",
+                                        "0.4 if frame % 2 == 0 and time < 1 else 0.6",
+                                        "0.25 + random(frame)/2",
+                                        "hsv(30*frame, 0.5, 0.5).x"};
     if (generate_chance(g, 40))
         return str_from(texts[generate_below(g, sizeof texts / sizeof *texts)]);
     return arena_format(g->arena, "0.4%u5", generate_below(g, 10));

@@ -4,6 +4,7 @@
 #include "diag/codes/command.h"
 #include "diag/codes/file.h"
 #include "diag/codes/limit.h"
+#include "diag/diag_expression.h"
 #include "files/stream.h"
 #include "grammar/ir.h"
 
@@ -97,13 +98,11 @@ static bool fill(struct batch *batch, uint32_t set, int32_t frame, str *out, boo
         return true;
     const uint32_t source =
         source_add(&cli->sources, SOURCE_KIND_OPTION, STR("--set"), arena_copy(&cli->arena, text));
-    struct strbuf names;
-    strbuf_init(&names);
-    expression_names(&names);
-    diag_add(&cli->sink, DIAG_USAGE, (span){source, (uint32_t)fault.begin, (uint32_t)fault.end},
-             "%s, in frame %d", fault.what, (int)frame);
-    diag_help(&cli->sink, "an expression has numbers, + - * / %% ^ and %.*s", STR_ARG(strbuf_view(&names)));
-    strbuf_finish(&names);
+    const struct diag_expression expression = {
+        .text = text,
+        .at = {source, 0, (uint32_t)text.len},
+        .suffix = arena_format(&cli->arena, ", in frame %d", (int)frame).ptr};
+    diag_expression_fault(&cli->sink, &cli->sources, DIAG_USAGE, &expression, &fault);
     return false;
 }
 
@@ -207,7 +206,7 @@ static int refuse_still(struct batch *batch) {
     diag_help(
         &cli->sink,
         "write an animation in the scene, or expressions of 'frame' or 'time' in braces, for example --set "
-        "'camera.position=[{4*cos(tau*frame/100)}, 1, {4*sin(tau*frame/100)}]'");
+        "'camera.position=[{4*cos(360*frame/100)}, 1, {4*sin(360*frame/100)}]'");
     return status;
 }
 

@@ -1,7 +1,6 @@
 // glint inspect SCENE|PICTURE: counts, bounds, features with their reasons, buffers; or the canonical dump.
 #include "cli/commands/commands.h"
 #include "cli/commands/inspect/inspect.h"
-#include "core/expression.h"
 #include "grammar/print/ir_print.h"
 
 static bool describe(struct session *session, bool as_json, struct strbuf *out) {
@@ -20,15 +19,6 @@ static bool describe(struct session *session, bool as_json, struct strbuf *out) 
     (as_json ? inspect_scene_json : inspect_scene_text)(&scene, out);
     flat_finish(&scene.flat);
     return true;
-}
-
-static void dump(const struct session *session, struct strbuf *out) {
-    ir_dump(session->scene, out);
-    if (!session->origin.motion.inexact)
-        return;
-    strbuf_cstr(out, "# The last digit of what moves by ");
-    expression_inexact_names(session->origin.motion.inexact, out);
-    strbuf_cstr(out, " depends on the C library of this system.\n");
 }
 
 int cmd_inspect(struct cli *cli) {
@@ -51,7 +41,7 @@ int cmd_inspect(struct cli *cli) {
     session_load(&session, &options, store);
     bool good = session.state == SESSION_LOADED && session.sink.errors == 0;
     if (good && cli->options.ir)
-        dump(&session, &text);
+        ir_dump(session.scene, &text);
     else if (good)
         good = describe(&session, format == 1, &text);
     int status = cli_report(cli, &session, !cli->options.ir);

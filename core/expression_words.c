@@ -1,0 +1,194 @@
+// The words that expressions have by themselves, and whether a text can be meant as an expression.
+#include "core/expression_internal.h"
+
+#include "core/number.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+static const struct expression_word words[] = {
+    {"sin", "sin(x)", "The sine of an angle in degrees.", true},
+    {"cos", "cos(x)", "The cosine of an angle in degrees.", true},
+    {"sqrt", "sqrt(x)", "The square root.", true},
+    {"abs", "abs(x)", "The number without its sign.", true},
+    {"floor", "floor(x)", "The largest whole number that is not above it.", true},
+    {"min", "min(a, b)", "The smaller one.", true},
+    {"max", "max(a, b)", "The larger one.", true},
+    {"mix", "mix(a, b, share)", "From a, with share 0, to b, with share 1: numbers, vectors or colours.",
+     true},
+    {"keys", "keys(x, x0, v0, x1, v1, ...)", "Straight from value to value: v0 at x0, v1 at x1, and so on.",
+     true},
+    {"ease", "ease(x, x0, v0, x1, v1, ...)", "As keys, slow at each.", true},
+    {"random", "random(n, ...)",
+     "A number from 0 to below 1 that looks random, always the same for the same one to four whole numbers.",
+     true},
+    {"hsv", "hsv(h, s, v)", "The colour #rrggbb of a hue in degrees, with saturation and value from 0 to 1.",
+     true},
+    {"pi", "pi", "3.14159...; angles need it nowhere, they are in degrees.", false},
+    {"frame", "frame", "The number of the frame, from 0; without a frame 0.", false},
+    {"time", "time", "Seconds since frame 0; without a frame 0.", false},
+    {"true", "true", "A truth.", false},
+    {"false", "false", "A truth.", false},
+    {"and", "a and b", "True if both are.", false},
+    {"or", "a or b", "True if one of them is, or both.", false},
+    {"not", "not a", "True if a is false.", false},
+    {"if", "a if c else b", "a where c is true, else b.", false},
+    {"else", "a if c else b", "a where c is true, else b.", false},
+    {NULL, NULL, NULL, false},
+};
+
+const struct expression_word *expression_words(void) {
+    return words;
+}
+
+bool expression_is_word(str name) {
+    for (const struct expression_word *word = words; word->name; word++)
+        if (str_equal_cstr(name, word->name))
+            return true;
+    return false;
+}
+
+// What other languages have.
+static const struct {
+    const char *name, *help;
+} foreign[] = {
+    {"rand", "write random(n), with another number n for each thing"},
+    {"pow", "write a^b, with a whole number b; of a half, sqrt(a)"},
+    {"lerp", "write mix(a, b, share)"},
+    {"clamp", "write min(max(x, least), greatest)"},
+    {"smoothstep", "write ease(x, x0, v0, x1, v1)"},
+    {"fabs", "write abs(x)"},
+    {"fmod", "write a % b"},
+    {"mod", "write a % b"},
+    {"round", "write floor(x + 0.5)"},
+    {"ceil", "write -floor(-x)"},
+    {"tan", "write sin(x)/cos(x); x is in degrees"},
+    {"radians", "angles are in degrees: write the angle itself"},
+    {"degrees", "angles are in degrees: write the angle itself"},
+    {"rgb", "a colour is written [r, g, b]"},
+    {"vec3", "a vector is written [x, y, z]"},
+};
+
+const char *expression_foreign(str function) {
+    for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++)
+        if (str_equal_cstr(function, foreign[i].name))
+            return foreign[i].help;
+    return NULL;
+}
+
+bool expression_fail(struct expression_fault *fault, size_t begin, size_t end, const char *format, ...) {
+    va_list arguments;
+    *fault = (struct expression_fault){.begin = begin, .end = end > begin ? end : begin + 1};
+    va_start(arguments, format);
+    vsnprintf(fault->what, sizeof fault->what, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+const char *expression_type_name(enum expression_type type) {
+    static const char *const names[] = {"a number", "true or false", "a vector or colour"};
+    return names[type];
+}
+
+size_t expression_name_length(str text, size_t at) {
+    size_t end = at;
+    while (end < text.len &&
+           (expression_begins_name(text.ptr[end]) || (end > at && char_is_digit(text.ptr[end]))))
+        end++;
+    return end - at;
+}
+
+bool expression_is_name(str text) {
+    return text.len > 0 && expression_name_length(text, 0) == text.len;
+}
+
+// ---- what is meant
+
+enum token {
+    TOKEN_END,
+    TOKEN_NUMBER, // and letters after it: 3m, 0x10, 1e-3
+    TOKEN_NAME,
+    TOKEN_OPERATOR,
+    TOKEN_OPEN,
+    TOKEN_OTHER,
+};
+
+// The words of YAML and of number formats, which have messages of their own.
+static bool is_yaml_word(str text) {
+    static const char *const yaml[] = {"yes", "no",  "on",       "off",  "null", "nan",
+                                       "inf", "nil", "infinity", "none", "true", "false"};
+    for (size_t i = 0; i < sizeof yaml / sizeof *yaml; i++) {
+        bool same = strlen(yaml[i]) == text.len;
+        for (size_t k = 0; same && k < text.len; k++)
+            same = char_lower(text.ptr[k]) == yaml[i][k];
+        if (same)
+            return true;
+    }
+    return false;
+}
+
+static bool is_word_operator(str name) {
+    return str_equal(name, STR("and")) || str_equal(name, STR("or")) || str_equal(name, STR("if")) ||
+           str_equal(name, STR("else"));
+}
+
+static enum token take_token(str text, size_t *at, str *name) {
+    while (*at < text.len && char_is_space(text.ptr[*at]))
+        ++*at;
+    if (*at >= text.len)
+        return TOKEN_END;
+    const char c = text.ptr[*at];
+    const size_t length = expression_name_length(text, *at);
+    *name = str_slice(text, *at, *at + length);
+    if (length) {
+        *at += length;
+        return is_word_operator(*name) ? TOKEN_OPERATOR : TOKEN_NAME;
+    }
+    if (char_is_digit(c) || (c == '.' && *at + 1 < text.len && char_is_digit(text.ptr[*at + 1]))) {
+        while (*at < text.len && (char_is_digit(text.ptr[*at]) || text.ptr[*at] == '.' ||
+                                  expression_begins_name(text.ptr[*at])))
+            ++*at;
+        return TOKEN_NUMBER;
+    }
+    const size_t begin = *at;
+    while (*at < text.len && memchr("+-*/%^<>=!&|?", text.ptr[*at], 13))
+        ++*at;
+    if (*at > begin)
+        return TOKEN_OPERATOR;
+    ++*at;
+    return c == '(' ? TOKEN_OPEN : TOKEN_OTHER;
+}
+
+static bool is_component(str text, size_t dot) {
+    const size_t length = expression_name_length(text, dot + 1);
+    return text.len > dot + 1 && text.ptr[dot] == '.' && length == 1 && memchr("xyz", text.ptr[dot + 1], 3);
+}
+
+bool expression_is_meant(str text) {
+    double ignored;
+    enum token before = TOKEN_END, last = TOKEN_END, token;
+    str name = STR(""), one = STR("");
+    size_t at = 0;
+    if (number_parse(text, &ignored) == NUMBER_OK || is_yaml_word(text))
+        return false;
+    if (expression_is_name(text))
+        return true;
+    while ((token = take_token(text, &at, &one)) != TOKEN_END) {
+        const bool operand = token == TOKEN_NAME || token == TOKEN_NUMBER || token == TOKEN_OPEN;
+        if (token == TOKEN_OPEN && last == TOKEN_NAME)
+            return true;
+        if (token == TOKEN_NAME && !is_yaml_word(one) &&
+            ((last == TOKEN_OPERATOR && before == TOKEN_END) || (last == TOKEN_OPEN && before == TOKEN_END) ||
+             is_component(text, at) || str_equal(name, STR("not"))))
+            return true;
+        if (operand && last == TOKEN_OPERATOR && (before == TOKEN_NAME || before == TOKEN_NUMBER))
+            return true;
+        before = last;
+        last = token;
+        name = one;
+        // A closed parenthesis is an operand.
+        if (token == TOKEN_OTHER && text.ptr[at - 1] == ')')
+            last = TOKEN_NUMBER;
+    }
+    return false;
+}
