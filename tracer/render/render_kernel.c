@@ -113,7 +113,7 @@ static bool is_in_use(const struct renderer *renderer, const struct gpu_program 
            (program == renderer->program || program == renderer->counting || program == renderer->begins);
 }
 
-// The tracing kernel with these features, compiled now or before, over the band's buffers.
+// The tracing kernel with these features, compiled now or before, over the portion's buffers.
 static struct gpu_program *keep_program(struct renderer *renderer, uint64_t features) {
     for (uint32_t i = 0; i < RENDERER_KEPT; i++)
         if (is_for(&renderer->kept[i], renderer, features)) {
