@@ -21,14 +21,16 @@ enum {
     TILES_A_PIECE = 64,
     COLUMNS = TILE_SIDE,
 };
-// One-sided, for the normal distribution.
+// A normally distributed value exceeds its mean by more than this many standard deviations in one of twenty
+// cases.
 static const double SURE = 1.645;
 
-// Of a tile's error alone, squared, in the mean of its variances: that is above its own square by
-// 1.645 sqrt(2 + 2 / 3) of it in one of twenty tiles (conclude).
+// In 19 of 20 tiles the square of the error is at most this many times what the tile's variances say:
+// 1 + SURE sqrt(2 + 2 / 3), by the spread that `conclude` explains.
 static const double TILE_SURE = 3.686;
 
-// How many times the mean of its neighbours' an isolated variance is: at an edge two of eight are like it.
+// A variance is isolated if it is more than this many times the mean of its neighbours'. At an edge, where
+// two of the eight neighbours are like it, it is only 4 times that mean.
 static const float ALONE = 6;
 
 // Pixels that are drawn again: their share, and about how many at most.
@@ -74,8 +76,8 @@ static bool make(struct portion *portion, uint32_t tiles) {
 
 // ---- rounds
 
-// Samples of a pixel after the round that follows `samples`: twice as many, because the parts of the sequence
-// that cover evenly are those whose lengths are powers of two.
+// What a round makes of the number of samples that a pixel has: twice as many, because the parts of the
+// sequence that cover evenly are those whose lengths are powers of two.
 static uint32_t next_samples(const struct render_settings *settings, uint32_t samples) {
     const uint32_t most = settings->samples / GROUPS * GROUPS;
     const uint32_t least = (settings->least_samples + GROUPS - 1) / GROUPS * GROUPS;
@@ -193,8 +195,8 @@ static struct around look_around(const float *variance, int x, int y) {
     return around;
 }
 
-// Bright and rarely hit things show in a few pixels of a tile, but could have shown in the others as well:
-// the mean over the tile of the isolated variances.
+// The rare error of a tile: the isolated variances, averaged over all of its pixels. What is bright and
+// rarely hit shows in a few pixels of the tile, but the others could have hit it as well.
 static float rare_of_tile(const float *variance) {
     float sum = 0;
     int count = 0;
@@ -309,11 +311,11 @@ static void end_portion(const struct portion *portion, float *rgb, struct total 
 
 // ---- pixels that are drawn again
 
-// The groups of a pixel are parts of one sequence. What none of its samples met is missing from all groups,
-// and if a picture is as fine as the sequence, the groups can differ by less than the error of their mean:
-// its square is up to twice as large as for independent places (Owen 1997, "Monte Carlo Variance of Scrambled
-// Net Quadrature"). So some pixels, chosen at random, are drawn again when they have ended, with as many
-// samples from a different sequence: half of the squared difference is the squared error.
+// The groups of a pixel are parts of one sequence, so they can differ by less than their mean errs. What none
+// of the samples hit is missing from every group; and if the picture is as fine as the sequence, the square
+// of the error is up to twice that of independent samples (Owen 1997, "Monte Carlo Variance of Scrambled Net
+// Quadrature"). So some pixels, chosen at random, are drawn again when they have ended, with as many samples
+// from a different sequence: half of the squared difference estimates the squared error.
 static bool is_drawn_again(const struct render_settings *settings, uint32_t x, uint32_t y) {
     const double part = AGAIN_MOST / ((double)settings->width * settings->height);
     const uint32_t hash = point_hash(point_hash(x + settings->first_x) + y + settings->first_y);
@@ -356,8 +358,8 @@ static void add_excess(const struct portion *portion, struct total *total) {
     }
 }
 
-// Draws again pixels that have ended with this number of samples. Sample numbers from a power of two on that
-// the picture does not use belong to another sequence.
+// Draws again the chosen pixels that ended with this many samples. The new samples are numbered from the
+// first multiple of 2^bits that the picture does not reach: there another sequence begins.
 static enum render_result draw_again(struct portion *portion, uint32_t samples, struct total *total) {
     const struct render_settings *settings = &portion->run->renderer->settings;
     const uint32_t bits = points_bits(settings->first_sample, settings->samples);
@@ -419,10 +421,11 @@ static bool make_estimate(struct renderer *renderer) {
     return estimate->error && estimate->samples;
 }
 
-// Neither the errors nor their estimates are independent within a tile, because edges continue; a tile's
-// squared error has a variance of twice its square, and an estimate from four groups one of two thirds of it.
-// If the pixels that were drawn again indicate more than that, they count: for all pixels, with their own
-// spread.
+// How large the error of the whole picture may be. Edges continue from pixel to pixel, so within a tile
+// neither errors nor estimates are independent, and a tile counts as one value: its squared error has a
+// variance of twice its own square, and the estimate from four groups adds two thirds of that square. The
+// pixels that were drawn again give a second estimate, which has a spread of its own; the larger of the two
+// counts.
 static void conclude(struct renderer *renderer, const struct total *total) {
     const double all = (double)renderer->settings.width * renderer->settings.height;
     const double pixels = fmax(all - renderer->estimate.unknown, 1), again = total->again;
