@@ -91,7 +91,7 @@ struct cli_part {
     bool has_samples;                 // either was given
     bool resume, partial;
     bool spreads;      // over several devices
-    int32_t band_rows; // 0: as many as take a few seconds
+    int32_t band_rows; // 0: as many as take about a second
 };
 
 struct cli_farm {

@@ -5,7 +5,7 @@
 
 enum {
     LINE_SHOWN_MAX = 160, // bytes
-    MESSAGE_BYTES = 500,  // of one message with its notes, on average: `most` bounds the text too
+    MESSAGE_BYTES = 500,  // of a message with its notes: all together have at most `most` times as many
     TAB_COLUMNS = 8,
 };
 

@@ -23,8 +23,8 @@ struct output {
 
 // Opens the temporary file. false: output.error says why; nothing else needs to be called.
 bool output_open(struct output *output, const char *path);
-// The same for the file of this path in an open folder, which becomes the output's, by its name there:
-// nothing but a regular file is replaced, and a link is not followed (ELOOP, ENXIO, EISDIR).
+// The same for the file with the path's name in an open folder, which then belongs to the output. Only a
+// regular file is replaced, and no link is followed (ELOOP, ENXIO, EISDIR).
 bool output_open_in(struct output *output, int folder, const char *path);
 // The same, but the file replaces anything of that name except a folder.
 bool output_open_over(struct output *output, int folder, const char *path);

@@ -4,7 +4,7 @@
 #include <math.h>
 
 struct hit_counts {
-    uint64_t band, wrong_inside, wrong_outside, acne, leaks, shadow_edge, holes, wrong_second;
+    uint64_t silhouette, wrong_inside, wrong_outside, acne, leaks, shadow_edge, holes, wrong_second;
 };
 
 struct comparing {
@@ -14,7 +14,7 @@ struct comparing {
 };
 
 struct surroundings {
-    bool band, shadow_edge;
+    bool silhouette, shadow_edge;
 };
 
 static struct surroundings look_around(const struct comparing *c, uint32_t x, uint32_t y) {
@@ -24,7 +24,8 @@ static struct surroundings look_around(const struct comparing *c, uint32_t x, ui
         for (uint32_t u = x ? x - 1 : 0; u <= x + 1 && u < c->width; u++) {
             const struct hit_pixel *other = &c->reference[(size_t)v * c->width + u];
             const double nearer = fmin(own->distance, other->distance);
-            around.band |= other->body != own->body || fabs(own->distance - other->distance) > 0.05 * nearer;
+            around.silhouette |=
+                other->body != own->body || fabs(own->distance - other->distance) > 0.05 * nearer;
             around.shadow_edge |= other->lit != own->lit || other->considered != own->considered;
         }
     return around;
@@ -48,14 +49,14 @@ static void compare_pixel(const struct comparing *c, uint32_t x, uint32_t y, str
     const struct hit_pixel *d = &c->device[at], *r = &c->reference[at];
     const struct surroundings around = look_around(c, x, y);
     const bool wrong = !is_same_face(c, d, r);
-    counts->band += around.band;
-    counts->wrong_inside += wrong && around.band;
-    counts->wrong_outside += wrong && !around.band;
+    counts->silhouette += around.silhouette;
+    counts->wrong_inside += wrong && around.silhouette;
+    counts->wrong_outside += wrong && !around.silhouette;
     const bool closed = r->body < c->scene->body_count && c->scene->bodies[r->body].closed;
-    counts->holes += d->body == HIT_NONE && closed && !around.band;
+    counts->holes += d->body == HIT_NONE && closed && !around.silhouette;
     if (wrong || r->body == HIT_NONE)
         return;
-    counts->wrong_second += !around.band && is_second_wrong(d, r);
+    counts->wrong_second += !around.silhouette && is_second_wrong(d, r);
     const uint32_t both = d->considered & r->considered;
     const bool dark = both & r->lit & ~d->lit, light = both & d->lit & ~r->lit;
     counts->acne += dark && !around.shadow_edge;
@@ -72,7 +73,7 @@ void hits_compare(uint32_t width, uint32_t height, const struct hit_pixel *devic
             compare_pixel(&comparing, x, y, &counts);
     const double million = 1e6 / ((double)width * height);
     *out = (struct hit_errors){.known = true,
-                               .band = million * (double)counts.band,
+                               .silhouette = million * (double)counts.silhouette,
                                .wrong_inside = million * (double)counts.wrong_inside,
                                .wrong_outside = million * (double)counts.wrong_outside,
                                .acne = million * (double)counts.acne,

@@ -1,8 +1,8 @@
 // First hits compared with those of the reference: wrong hits, acne, leaks, holes.
 //
-// A pixel lies in the silhouettes' band where one of its eight neighbours hits another body in the reference,
-// or the same one at a distance that differs by more than a twentieth. It lies at a shadow's edge where a
-// neighbour of the same body is lit by other lights. Ownership: the caller's arrays. Thread safety: pure.
+// A pixel is at a silhouette if one of its eight neighbours hits another body in the reference, or the same
+// one at a distance that differs by more than a twentieth. It is at a shadow's edge if a neighbour of the
+// same body is lit by other lights. Ownership: the caller's arrays. Thread safety: pure.
 #ifndef GLINT_MEASURE_HIT_ERRORS_H
 #define GLINT_MEASURE_HIT_ERRORS_H
 
@@ -12,13 +12,14 @@
 // Where first hits differ from those of the reference, per million pixels.
 struct hit_errors {
     bool known;
-    double wrong_inside, wrong_outside; // of the silhouettes' band, one pixel wide
-    double band;                        // pixels that lie in it
-    double acne;         // dark although nothing is between hit and light, away from shadows' edges
-    double leaks;        // lit although something is between
-    double shadow_edge;  // lit differently in the band around shadows' edges
-    double holes;        // the background seen where the reference hits a closed body, outside the band
-    double wrong_second; // another body hit by the mirrored or the refracted ray, outside the band
+    double wrong_inside;  // another face hit, at silhouettes
+    double wrong_outside; // and elsewhere
+    double silhouette;    // pixels at silhouettes, which reports call the band
+    double acne;          // dark although nothing is between hit and light, away from shadows' edges
+    double leaks;         // lit although something is between
+    double shadow_edge;   // lit differently at shadows' edges
+    double holes;         // the background seen where the reference hits a closed body, not at silhouettes
+    double wrong_second;  // another body hit by the mirrored or the refracted ray, not at silhouettes
 };
 
 // `scene`: the scene whose bodies the hits name; closed bodies cannot be seen through.

@@ -7,7 +7,7 @@ uvec2 morton(uint index) {
                  ((index >> 1u) & 1u) | ((index >> 2u) & 2u) | ((index >> 3u) & 4u));
 }
 
-// Slots are numbered through the band, 64 per tile. CPU devices give each thread a contiguous range of
+// Slots are numbered through the portion, 64 per tile. CPU devices give each thread a contiguous range of
 // workgroups, and sky is cheaper than ground, so short runs of tiles are scattered over the picture.
 uvec2 pixel_of_slot(uint slot) {
     uint tile = dispatch.tile_begin + slot / TILE_PIXELS;

@@ -84,8 +84,8 @@
 
 /* Push constants. */
 #define DISPATCH_FIELDS(FLOAT, UINT)                                                                         \
-    UINT(tile_begin)   /* first tile of the band */                                                          \
-    UINT(tile_count)   /* of the band; 64 slots each */                                                      \
+    UINT(tile_begin)   /* first tile of the portion */                                                       \
+    UINT(tile_count)   /* of the portion; 64 slots each */                                                   \
     UINT(grid_width)   /* workgroups in x */                                                                 \
     UINT(sample_index) /* samples whose sum lies in the output */                                            \
     FLOAT(offset_x)    /* of the sample inside the pixel */                                                  \

@@ -40,18 +40,17 @@
    word 3: qlo_z; qhi_x
    word 4: qhi_y; qhi_z
    Leaf items follow each other in slot order. An empty slot has qlo 255 and qhi 0. Node 0 is the root.
-   Slots are octants: bits 4, 2, 1 of the slot are set where the child lies on the upper side in x, y, z. A
-   ray whose direction is negative in an axis has that axis' bit in `octant`; slot ^ octant counts upwards
-   about front to back.
-   Child boxes are decoded conservatively as t = (p - o)/d + q * (2^e/d), and the far distance is multiplied
-   by BOX_FAR_SCALE: 2 gamma(4) for the rounding of the near and far distance (Ize 2013) and as much again
-   for that of a watertight hit, whose vertices are rounded after the origin is subtracted, u = 2^-24. */
+   A slot's number is the octant of the node that its child lies in: bits 4, 2, 1 are set for the upper side
+   in x, y, z. A ray's `octant` has the bits of the axes in which its direction is negative: in ascending
+   order of slot ^ octant, children follow each other roughly from front to back. Child boxes are decoded
+   conservatively as t = (p - o)/d + q * (2^e/d), and the far distance is multiplied by BOX_FAR_SCALE. Of
+   that, 2 gamma(4) are for the rounding of the near and far distance (Ize 2013), and as much again for that
+   of a watertight hit, whose vertices are rounded after the origin is subtracted. The unit is u = 2^-24. */
 #define BOX_FAR_SCALE 1.00000095367431640625 /* 1 + 16 u */
 
-/* Leaf items of the triangle tree: `number` counts triangles (bodies in order, triangles in file order;
-   spheres come before and are not counted; a cone counts as one); `shade` holds the material in its low 24
-   bits, and flags. Leaf items of the sphere tree, which are spheres and, if the scene has any, cones, have
-   TRIANGLE_SOLID always. */
+/* Leaf items of the triangle tree. `number` counts triangles: bodies in order, triangles in file order; a
+   cone counts as one, spheres are not counted. `shade` holds the material in its low 24 bits, and flags. The
+   leaf items of the sphere tree, spheres and cones, always have TRIANGLE_SOLID. */
 #define TRIANGLE_SMOOTH       0x01000000u
 #define TRIANGLE_SOLID        0x02000000u /* body is closed: refraction enters and leaves; else a thin pane */
 #define TRIANGLE_HALF         0x04000000u /* half of a parallelogram */
@@ -63,42 +62,47 @@
 /* Flags of cones, in place of others. */
 #define FRUSTUM_SHADE  0x08000000u /* it is one; else a sphere */
 #define FRUSTUM_TURNED 0x01000000u /* its base is the end that the scene calls 'to' */
-/* How far below a disc its checker's cells are looked up, as a fraction of the height. */
+/* The checker on an end of a cone is looked up this far inside, as a fraction of the cone's height. */
 #define CONE_INSET 1.52587890625e-5 /* 2^-16 */
 /* How much wider a triangle's box is, as a fraction of its largest coordinate; in double precision 2^-47. */
 #define TRIANGLE_BOX_PAD 3.814697265625e-6 /* 2^-18 */
-/* How much shorter the edges of another corner than the first must be, as a product of both, to be preferred.
- */
+/* Normals are made from the first corner's edges, unless the product of their lengths is more than this many
+   times that of another corner. */
 #define TRIANGLE_CORNER_FACTOR 8.0
 
-/* Normals of smooth triangles: 3 records each, in object order of v0 v1 v2 as stored in the leaf, from
+/* Normals of smooth triangles: 3 records each, in the order of v0 v1 v2 as stored in the leaf, from
    3 * (triangle number - body.first_triangle) + body.normal_base on.
-   Rows of a body are those of the affine map from flat space to the coordinates of its checker; of a
-   parallelogram the first one alone, with the lengths of its edges in scene units. Zero where unused. */
+   The rows of a body's record are the affine map from flat space to the coordinates of its checker. Of a
+   parallelogram, only the first row is used: it holds the lengths of the edges in scene units. Unused rows
+   are 0. */
 
-/* If models share a mesh (kernels compiled with INSTANCES), the triangle tree has two levels. Nodes below
-   frame.top_nodes are the upper level, in flat space. Its leaves are nodes too, one per instance, with 0 in
-   byte 0 of the exponents, as in no other node; the first child is the root of the instance's tree and the
-   first item the instance; kernels read only these two. The other nodes of the upper tree have no items:
-   their first item is a mask of the slots whose children are leaves. Below a root everything is in the space
-   of that tree, which keeps its coordinates below 2. TRIANGLES holds PLACED records, NORMALS doubles. All
-   triangles that are not shared are instance 0, which changes nothing. A hit item is the place of its record
-   plus first_item of its instance: such numbers rise with the instances, and each instance begins a new block
-   of 2^frame.instance_shift numbers. INSTANCES holds a record for each, ENTRY and INSTANCE one after the
-   other; from frame.instance_table on, the instance of each block, four to a word; then the shades (material
-   and flags) of groups. */
+/* If models share a mesh (kernels compiled with INSTANCES), the triangle tree has two levels.
+
+   The upper tree, of nodes below frame.top_nodes, is in flat space. Its leaves are nodes too, one per
+   instance. Only they have 0 in byte 0 of the exponents, and kernels read only two of their fields: the first
+   child is the root of the instance's tree, the first item is the instance. The other nodes of the upper tree
+   have no items: their first item is a mask of the slots whose children are leaves. Below the root of an
+   instance's tree everything is in the space of that tree, which keeps its coordinates below 2.
+
+   TRIANGLES holds PLACED records, NORMALS doubles. All triangles that are not shared belong to instance 0,
+   whose map changes nothing. The item that a ray hits is the place of its record plus first_item of its
+   instance. Each instance has a block, or several, of 2^frame.instance_shift such numbers of its own, in
+   ascending order. INSTANCES holds ENTRY and INSTANCE of each instance; from frame.instance_table on, the
+   instance of each block, four to a word; then the shades (material and flags) of groups, likewise. */
 #define INSTANCE_MIRRORED 1u /* the second and third corner are exchanged */
 #define INSTANCE_COPIED   2u /* instance 0: records have bodies and shades of their own */
 
 /* Images: PAINTS begins with two records for each material, for its diffuse and its specular colour. After
-   them lie, in any order, the data to which records refer by word number: for each image one word per level,
-   with its first texel (counted in texels from the array's begin), width, height and the kind of its texels,
-   row 0 on top, from the finest level on; for sRGB images of bytes one word for each of 256 values, decoded;
-   for each mesh with coordinates COORDINATE_WORDS per triangle (u, v of each corner, in the order of the
-   mesh, as floats, or as doubles in COORDINATE64_WORDS); and, from frame.coordinates_table on, four to a
-   word, the first of those words for each body: it is even, plus 1 if the body's second and third corners are
-   exchanged relative to the mesh's; 0: it has none. Word numbers have 32 bits: 64 GiB, of which a quarter can
-   be texels of bytes. */
+   them come, in any order, the data that records refer to by the number of a word:
+   - of each image, a word per level, the finest first: its first texel, counted in texels from the beginning
+     of the array, its width, height and kind of texels; row 0 is on top
+   - of an sRGB image of bytes, the decoded values of the 256 bytes, a word each
+   - of each mesh with coordinates, u and v of each corner, in the order of the mesh: per triangle
+     COORDINATE_WORDS of floats, or COORDINATE64_WORDS of doubles
+   - from frame.coordinates_table on, four to a word, the first of those words for each body. It is even; 1 is
+     added if the second and third corners of the body are exchanged against the mesh's; 0: it has none.
+   The texels are last. Their numbers have 32 bits, and a word may hold four of them: so the array has at most
+   2^30 words, which are 16 GiB. */
 #define COORDINATE_WORDS   2
 #define COORDINATE64_WORDS 3
 /* Kinds of texels: a word holds 2^kind texels. */
@@ -111,16 +115,16 @@
 #define PAINT_MIRROR  8u  /* neither: repeat */
 #define PAINT_SOFT    16u /* the material's checker is filtered */
 
-/* A medium (scene/media.h): its priority, above 0, and below it the number, from 1 on, of a material that
-   fills it; the same one for all that are alike. What a path is inside (media.glsl) is kept with the number
-   of the body, from 1 on, in place of the material's. */
+/* A medium (scene/media.h): in the high bits its priority, above 0; in the low ones the number, from 1 on, of
+   a material that fills it, the same one for all materials that are alike. What a path is inside (media.glsl)
+   is kept with the number of the body, from 1 on, in the low bits. */
 #define MEDIUM_BITS     21
 #define MEDIUM_MASK     ((1u << MEDIUM_BITS) - 1u)
 #define MEDIUM_PRIORITY 1001 /* added to priorities */
 #define MEDIA_MOST      8
 
-/* The place of a light is its position, or a unit vector to it; emission over inverse square is already times
-   scale squared. */
+/* The place of a light is its position, or with LIGHT_DIRECTIONAL a unit vector to it. With
+   LIGHT_INVERSE_SQUARE the emission is already multiplied by the square of the scale. */
 #define LIGHT_DIRECTIONAL    1u
 #define LIGHT_INVERSE_SQUARE 2u
 #define LIGHT_EXTENT         4u /* a sphere; with LIGHT_DIRECTIONAL a disc, with LIGHT_PANEL a panel */
@@ -129,11 +133,11 @@
 /* A background that lights: where a sample looks (scene/sky.h), four numbers to a word of LIGHTS, from the
    frame's sky_table on. */
 
-/* A scene in double precision: nodes as above; the other records are laid out as records.h says. Boxes hold
-   the doubles, rounded outward. A kernel subtracts in double precision the t at which a ray enters a node
-   from every t in it; the difference is rounded to single precision, with errors below 2^-13 of a cell of the
-   node, and child boxes are widened by 2^-12 (bvh/encode.c). BOX_SLACK times the subtracted t covers the
-   rounding of t itself and of a watertight hit, 64 units of 2^-53. */
+/* A scene in double precision: nodes as above; the other records are laid out as records.h says. Boxes
+   contain the doubles: they are rounded outward. A kernel subtracts the t at which a ray enters a node from
+   every t in it. It subtracts in double precision and rounds the difference to single, with errors below
+   2^-13 of a cell of the node; so child boxes are widened by 2^-12 of a cell (bvh/encode.c). BOX_SLACK times
+   the subtracted t covers the rounding of t itself and of a watertight hit, 64 units of 2^-53. */
 #define BOX_SLACK 7.105427357601002e-15 /* 2^-47 */
 
 #endif

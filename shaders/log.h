@@ -35,11 +35,10 @@
 #define LOG_PASSES    4u /* it goes straight on, unseen */
 #define LOG_NESTED    8u /* it would be inside too many media */
 
-/* dispatch.first_sample and (read_list, pending_base): the sample, and its pixel. dispatch.resume: make the
-   camera's ray the first ray; follow the rays and make their surfaces; send the shadow ray to light i.
-   tile_count is the number of rays. */
-#define LOG_CAMERA 0
-#define LOG_FOLLOW 1
-#define LOG_LIGHTS 2
+/* What log.comp reads of `dispatch`: first_sample, the sample; read_list and pending_base, x and y of its
+   pixel; tile_count, the number of rays; and resume, which says what to do. */
+#define LOG_CAMERA 0 /* write the camera's ray as the first ray */
+#define LOG_FOLLOW 1 /* trace the rays and make the surfaces that they hit */
+#define LOG_LIGHTS 2 /* plus the number of a light: send a shadow ray to it from each surface */
 
 #endif

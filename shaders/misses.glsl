@@ -1,20 +1,21 @@
-// Whether a ray certainly misses a triangle, in single precision: it misses most of those that a kernel in double
-// precision meets. The rest are tested as usual, so this never changes a hit. docs/decisions/precision.md has the
-// proof.
+// Whether a ray certainly misses a triangle, found in single precision. A kernel in double precision asks this first: most
+// of the triangles that it comes to are missed. The others are tested in double precision, so no hit ever changes.
+// docs/decisions/precision.md has the proof.
 
-// In units of 2^-24: the error of a corner across the ray, as a fraction of its place relative to the start and of
-// the start's coordinates; and more than what is lost below the smallest normal float.
+// A corner's error across the ray is at most the sum of three: a fraction (OUTLINE_STEPS) of its place relative to the
+// ray's start, a fraction (OUTLINE_NEAR) of the start's largest coordinate, and more than what is lost below the smallest
+// normal float.
 #ifndef OUTLINE_SHARE
 #define OUTLINE_SHARE 1.0 // of the margins; less than 1 to see how much they matter
 #endif
-const float OUTLINE_STEPS = OUTLINE_SHARE * 7.1525574e-7;  // 12
-const float OUTLINE_NEAR = OUTLINE_SHARE * 5.9604645e-7;   // 10
+const float OUTLINE_STEPS = OUTLINE_SHARE * 7.1525574e-7;  // 12 units of 2^-24
+const float OUTLINE_NEAR = OUTLINE_SHARE * 5.9604645e-7;   // 10 such units
 const float OUTLINE_LEAST = OUTLINE_SHARE * 7.5231638e-37; // 2^-120
 
 struct outline_ray {
     vec3 origin;
     float sx, sy;
-    float near; // bound on how far the truncated numbers and the start's error move a corner, across the ray
+    float near; // bound of the part of a corner's error across the ray that is the same for all corners
 };
 
 outline_ray make_outline_ray(triangle_search search) {
@@ -43,6 +44,6 @@ bool misses(uint item, outline_ray outline, shear_ray ray) {
     float wrong_y = OUTLINE_STEPS * (y_most + z_most) + outline.near;
     float margin = 2.0 * (wrong_x * (y_most + wrong_y) + wrong_y * x_most) + OUTLINE_STEPS * (x_most * y_most) +
                    OUTLINE_LEAST;
-    // false if a number is infinite or NaN.
+    // Also false if a number is infinite or NaN.
     return max(max(u, v), w) > margin && min(min(u, v), w) < -margin;
 }

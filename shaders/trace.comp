@@ -352,7 +352,8 @@ void pass_surface(inout path_state p, surface s) {
     p.hit.item = NO_ITEM;
 }
 
-// Takes the hit of a phase's ray; makes the surface for the path's own ray, or for one found before.
+// Takes in what a phase's ray has hit. Unless that was a shadow ray, also makes the surface that the path is at, and finds
+// where shadow rays start there. In PHASE_HIT there was no ray, and the surface is made again.
 uint arrive(inout path_state p, uint phase, hit_record hit, light_ray shadow, inout surface s, inout ray_start start) {
     uint state = GOES_ON;
     if (phase == PHASE_RAY)
@@ -416,8 +417,8 @@ void end_chain(uint slot, inout path_state p, inout uint state, inout uint phase
 
 layout(constant_id = CONSTANT_LISTED) const bool LISTED = false;
 
-// The offset of one of the dispatch's samples. Pixels that end by their error have points of their own: an error that
-// they share would not be noticed.
+// Where in its pixel a sample is taken: at the same place in every pixel. Only pixels that end by their error (LISTED) have
+// places of their own, because none of them would notice an error that all of them share.
 vec2 offset_in_pixel(uint sample_number) {
     vec2 offset = vec2(dispatch.offset_x, dispatch.offset_y);
 #ifndef FETCH_TEXELS

@@ -184,7 +184,7 @@ enum gltf_alpha {
 struct gltf_material {
     json_index node;
     str name;
-    bool is_named; // whether its name is unique
+    bool is_named; // it goes by `name`, not by its number
     double base[4];
     double metallic, roughness;
     double emission[3]; // times its strength

@@ -160,7 +160,8 @@ static void read_material(struct gltf *gltf, json_index node) {
     read_glass(gltf, node, m);
 }
 
-// Which names identify a material: those that only one has, and that equal no material's numbered name.
+// Which materials go by their own name: the first of each name, unless the name has control characters or
+// could be taken for one like "material 3", which all others go by.
 static void find_names(struct gltf *gltf) {
     struct str_map map;
     str_map_init(&map, gltf->arena);

@@ -7,11 +7,11 @@
 #define ROOT_HALF 0.70710678118654752440
 
 enum {
-    BANDS_MOST = 3,
+    TIERS_MOST = 3,
 };
 
 // The sides between two heights.
-struct band {
+struct tier {
     uint32_t bottom, top;               // the first vertices of the rings there
     bool is_bottom_inset, is_top_inset; // a ring by sides, or one by places
     double slope;                       // z of its normals: 0, or -1 and 1 on bevels
@@ -24,8 +24,8 @@ struct building {
     struct region inset; // of both ends, where there is a bevel
     uint32_t *before;    // per side: the side that it follows
     struct shell shell;
-    struct band bands[BANDS_MOST];
-    uint32_t band_count;
+    struct tier tiers[TIERS_MOST];
+    uint32_t tier_count;
     struct plane_box box; // of the places that sides use
 };
 
@@ -46,21 +46,21 @@ static uint32_t add_inset(struct building *b, double z) {
     return add_ring(b, b->inset.points, b->inset.point_count, z);
 }
 
-static void add_bands(struct building *b) {
+static void add_tiers(struct building *b) {
     const double height = b->in->height, bevel = b->in->bevel;
     if (bevel == 0) {
         const uint32_t bottom = add_places(b, 0);
-        b->bands[b->band_count++] = (struct band){bottom, add_places(b, height), false, false, 0, {0, 1}};
+        b->tiers[b->tier_count++] = (struct tier){bottom, add_places(b, height), false, false, 0, {0, 1}};
         return;
     }
     const double cut = bevel / ROOT_HALF, between = height - 2 * bevel, all = 2 * cut + between;
     const uint32_t bottom = add_inset(b, 0), lower = add_places(b, bevel);
     const uint32_t upper = between > 0 ? add_places(b, height - bevel) : lower;
     const uint32_t top = add_inset(b, height);
-    b->bands[b->band_count++] = (struct band){bottom, lower, true, false, -1, {0, cut / all}};
+    b->tiers[b->tier_count++] = (struct tier){bottom, lower, true, false, -1, {0, cut / all}};
     if (between > 0)
-        b->bands[b->band_count++] = (struct band){lower, upper, false, false, 0, {cut / all, 1 - cut / all}};
-    b->bands[b->band_count++] = (struct band){upper, top, false, true, 1, {1 - cut / all, 1}};
+        b->tiers[b->tier_count++] = (struct tier){lower, upper, false, false, 0, {cut / all, 1 - cut / all}};
+    b->tiers[b->tier_count++] = (struct tier){upper, top, false, true, 1, {1 - cut / all, 1}};
 }
 
 // ---- sides
@@ -85,18 +85,18 @@ static uint32_t ring_vertex(const struct building *b, uint32_t ring, bool is_ins
     return ring + (end ? b->region->sides[side].to : b->region->sides[side].from);
 }
 
-static void add_side(struct building *b, const struct band *band, uint32_t side) {
+static void add_side(struct building *b, const struct tier *tier, uint32_t side) {
     const struct prism_look look = look_of(b, side);
-    const uint32_t from = add_normal(b, look.along[0], band->slope);
+    const uint32_t from = add_normal(b, look.along[0], tier->slope);
     const uint32_t to =
-        plane_same(look.along[0], look.along[1]) ? from : add_normal(b, look.along[1], band->slope);
-    const bool inset[2] = {band->is_bottom_inset, band->is_top_inset};
-    const uint32_t rings[2] = {band->bottom, band->top};
+        plane_same(look.along[0], look.along[1]) ? from : add_normal(b, look.along[1], tier->slope);
+    const bool inset[2] = {tier->is_bottom_inset, tier->is_top_inset};
+    const uint32_t rings[2] = {tier->bottom, tier->top};
     struct shell_corner corners[4];
     for (uint32_t i = 0; i < 4; i++) {
         const bool end = i == 1 || i == 2, up = i >= 2;
         corners[i] = (struct shell_corner){ring_vertex(b, rings[up], inset[up], side, end), end ? to : from,
-                                           shell_coordinate(&b->shell, look.u[end], band->v[up])};
+                                           shell_coordinate(&b->shell, look.u[end], tier->v[up])};
     }
     shell_face(&b->shell, corners, 4);
 }
@@ -122,8 +122,8 @@ static void add_ends(struct building *b, const struct region *cap) {
     const struct ir_pair *points = is_inset ? cap->points : cap->places;
     const uint32_t count = is_inset ? cap->point_count : cap->place_count;
     const uint32_t coordinates = shell_box_coordinates(&b->shell, &b->box, points, count);
-    add_end(b, cap, b->bands[0].bottom, coordinates, false);
-    add_end(b, cap, b->bands[b->band_count - 1].top, coordinates, true);
+    add_end(b, cap, b->tiers[0].bottom, coordinates, false);
+    add_end(b, cap, b->tiers[b->tier_count - 1].top, coordinates, true);
 }
 
 // ----
@@ -152,8 +152,8 @@ bool prism_build(const struct prism *prism, const struct made_to *to, struct mad
     if (prism->bevel > 0 && !make_inset(&b, &out->fault))
         return false;
     const struct region *cap = prism->bevel > 0 ? &b.inset : b.region;
-    const uint64_t bands = prism->bevel == 0 ? 1 : prism->height > 2 * prism->bevel ? 3 : 2;
-    const uint64_t quads = bands * b.region->side_count, ends = 2 * (uint64_t)cap->triangle_count;
+    const uint64_t tiers = prism->bevel == 0 ? 1 : prism->height > 2 * prism->bevel ? 3 : 2;
+    const uint64_t quads = tiers * b.region->side_count, ends = 2 * (uint64_t)cap->triangle_count;
     if (!made_count(out, to, 2 * quads + ends))
         return false;
     shell_begin(&b.shell, to, out, quads + ends, 4 * quads + 3 * ends);
@@ -161,10 +161,10 @@ bool prism_build(const struct prism *prism, const struct made_to *to, struct mad
     b.box = PLANE_BOX_EMPTY;
     for (uint32_t i = 0; i < b.region->side_count; i++)
         plane_include(&b.box, b.region->places[b.region->sides[i].from]);
-    add_bands(&b);
-    for (uint32_t band = 0; band < b.band_count; band++)
+    add_tiers(&b);
+    for (uint32_t tier = 0; tier < b.tier_count; tier++)
         for (uint32_t side = 0; side < b.region->side_count; side++)
-            add_side(&b, &b.bands[band], side);
+            add_side(&b, &b.tiers[tier], side);
     add_ends(&b, cap);
     shell_end(&b.shell);
     return true;

@@ -17,7 +17,7 @@ struct prism_look {
 };
 
 struct prism {
-    const struct region *region;    // found, with sides
+    const struct region *region;    // after region_find or region_cut
     const struct prism_look *looks; // per edge of the region
     double scale;                   // from the plane's unit to the mesh's
     double height, bevel;           // in the mesh's unit

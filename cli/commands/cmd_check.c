@@ -308,8 +308,9 @@ static void put_changed(const struct check *check, struct strbuf *out) {
                       check->looked_at == 1 ? "" : "s");
 }
 
-// "glint: 5 errors, 7 warnings in 31 files; 26 clean". Left out for one finding in one file, and if all is
-// well; but always there if --changed left scenes out or all is ignored, which nothing else shows.
+// The last line, such as "glint: 5 errors, 7 warnings in 31 files; 26 clean". There is none if nothing was
+// found, or one thing in one file; except with --changed, and if all files that were named are ignored,
+// because nothing else shows how few were checked.
 static void put_closing(const struct check *check, struct strbuf *out) {
     const struct sums sums = sum_up(check);
     const uint32_t findings = sums.errors + sums.warnings + sums.notes;

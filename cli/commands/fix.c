@@ -27,8 +27,8 @@ static void tell(struct strbuf *text, const struct fixed_file *file) {
                       file->changes == 1 ? "fix" : "fixes");
 }
 
-// The scene that the user named may be anywhere; what it reads, and what was found in a folder, must be where
-// it may be read.
+// A scene that the user named may be anywhere. Files that it reads, and scenes found in a folder, are written
+// only where they may be read.
 static int write_file(struct cli *cli, const struct session_options *options, const struct fixed_file *file) {
     struct files files;
     files_init(&files, &cli->arena);

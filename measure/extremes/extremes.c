@@ -220,7 +220,7 @@ static void compare_hits(struct run *run, const struct variant *v, struct extrem
     struct hit_errors errors;
     hits_compare(v->width, v->height, run->hits[0], run->hits[1], &v->scene, &errors);
     cell->measured[EXTREME_WRONG] = errors.wrong_outside;
-    cell->measured[EXTREME_BAND] = errors.wrong_inside;
+    cell->measured[EXTREME_SILHOUETTE] = errors.wrong_inside;
     cell->measured[EXTREME_SELF_HITS] = errors.acne;
     cell->measured[EXTREME_LEAKS] = errors.leaks;
     cell->measured[EXTREME_HOLES] = errors.holes;

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The cost of a frame's check, in additions.
+// What checking a frame costs, in additions: for each track, besides its value, and for each element.
 enum {
     TRACK_COST = 16,
     ELEMENT_COST = 64,
@@ -77,11 +77,11 @@ static void take_frame(struct motion *motion) {
 static uint64_t cost_of_frame(const struct motion *motion) {
     uint64_t cost = (uint64_t)motion->element_count * ELEMENT_COST;
     for (uint32_t i = 0; i < motion->count; i++)
-        cost += TRACK_COST + 2 * motion->items[i].cost; // by itself, and with all others
+        cost += TRACK_COST + 2 * motion->items[i].cost; // its value: for itself, and for its element
     return cost;
 }
 
-// If checking all frames would take too long: checks every n-th, and says so.
+// If checking all frames would cost more than the limit: checks only every n-th, and reports that.
 static void choose_step(struct motion *motion) {
     const struct loader *loader = motion->loader;
     const uint64_t most = loader->input->limits->value[LIMIT_ANIMATION_OPERATIONS];
@@ -137,7 +137,7 @@ static void copy_first_error(const struct motion *motion, const struct diag_sink
     }
 }
 
-// The entry of the scene in which a track moves something.
+// The top-level element, such as a camera or a material, in which a track moves something.
 static const struct bind_frame *element_of(const struct moving *m) {
     const struct bind_frame *frame = m->frame;
     while (frame->parent && frame->parent->parent)
@@ -152,7 +152,7 @@ static int compare_elements(const void *a, const void *b) {
     return (*x)->memory < (*y)->memory ? -1 : (*x)->memory > (*y)->memory;
 }
 
-// Only moving values can break a rule in one frame and not in another.
+// Finds the elements in which something moves, each once: all others keep or break rules in all frames alike.
 static void find_elements(struct motion *motion) {
     uint32_t count = 0;
     motion->elements = ARENA_ARRAY(&motion->loader->scratch, const struct bind_frame *, motion->count + 1);
@@ -166,7 +166,8 @@ static void find_elements(struct motion *motion) {
     motion->element_count = count;
 }
 
-// The rules of whole elements, such as a camera that looks at its own place: the first frame that breaks one.
+// Checks the rules about whole elements, such as that a camera must not look at its own place. Only the first
+// frame that breaks one is reported.
 static void look_at_elements(const struct motion *motion) {
     struct loader *loader = motion->loader;
     const struct parser_input *input = loader->input;
@@ -203,7 +204,7 @@ static void look_at_elements(const struct motion *motion) {
     diag_sink_finish(&found);
 }
 
-// Whether the file names the frame. A user who asks for one frame by an option does not ask about the others.
+// Whether the file chooses the frame. A user who chooses one by an option does not ask about the others.
 static bool is_frame_of_file(const struct loader *loader, const struct ir_animation *animation) {
     const span at = ir_place_value(&loader->output->origin, &animation->head, &SCHEMA_ANIMATION, "frame");
     return loader->input->sources->items[at.source].kind != SOURCE_KIND_OPTION;

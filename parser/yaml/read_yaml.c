@@ -6,7 +6,8 @@
 
 #include <string.h>
 
-// After each repair the text is read again from the start: often for a small file, seldom for a large one.
+// After each repair the text is read again from the start: ATTEMPTS_FREE times whatever its size, and up to
+// ATTEMPTS_MAX times as long as that is less than REREAD_BYTES_MAX in all.
 enum {
     ATTEMPTS_MAX = 256,
     ATTEMPTS_FREE = 8,

@@ -5,8 +5,8 @@
 
 #include <string.h>
 
-// An unquoted colour that made a comment of the rest of its line, in text that libyaml has scanned without an
-// event for it.
+// Finds an unquoted colour such as #ff8800 in text that libyaml has scanned without an event: the colour's
+// '#' has turned the rest of its line into a comment.
 static bool find_color(const struct yaml_reader *r, uint32_t begin, uint32_t end,
                        struct reader_range *color) {
     str text = r->text->bytes;

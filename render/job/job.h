@@ -37,7 +37,7 @@ struct job_wish {
     double max_off;         // the share of pixels off that the audit must decide on; below 0: it need not
     uint32_t aovs;          // bits of enum aov
     bool in_picture;        // they are layers of the picture
-    int32_t band_rows;      // rows of a band; 0: as many as take a few seconds
+    int32_t band_rows;      // rows of a band; 0: as many as take about a second
     struct job_time time;
     struct timeline *timeline;    // may be NULL
     bool (*ready)(void *context); // as in shot_wish

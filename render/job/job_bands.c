@@ -48,7 +48,7 @@ static void add_statistics(struct render_statistics *all, const struct render_st
     all->wall_seconds += band->wall_seconds;
     all->samples = band->samples;
     all->all_samples += band->all_samples;
-    all->bands += band->bands;
+    all->portions += band->portions;
     all->dispatches += band->dispatches;
     all->slices += band->slices;
     to->primary += from->primary;

@@ -70,7 +70,8 @@ static struct image_texts texts_of(const struct job *job, bool is_double, enum i
     return provenance_texts(&made, job->arena);
 }
 
-// If the scene leaves the precision open, it was chosen for the same scene as it would be now.
+// A picture in either precision will do. If the scene leaves the precision open, the same one would be chosen
+// for it again.
 bool job_picture_is_done(const struct job *job, const char *path, enum image_format format,
                          struct image_coding coding) {
     bool done = false;

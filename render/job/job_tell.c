@@ -70,7 +70,7 @@ static void fill_statistics(struct job *job) {
     s->build_seconds = shot->flat.build_seconds;
     s->upload_seconds = shot->upload_seconds;
     s->scene_bytes = renderer_scene_bytes(shot->renderer);
-    s->band_bytes = renderer_band_bytes(shot->renderer);
+    s->portion_bytes = renderer_portion_bytes(shot->renderer);
     s->triangles = shot->flat.triangle_count;
     s->dropped = shot->flat.dropped_triangles;
     s->spheres = shot->flat.sphere_count;

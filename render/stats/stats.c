@@ -107,11 +107,12 @@ void stats_text(const struct stats *s, struct strbuf *out) {
     count(out, "spheres", s->spheres);
     count(out, "dropped, no area", s->dropped);
     count(out, "tree levels", s->triangle_depth);
+    // Reports say band for what the renderer calls a portion: their words stay as they are.
     strbuf_format(out, "  dispatches       %10u, %u of them slices, %u bands\n", s->last.dispatches,
-                  s->last.slices, s->last.bands);
+                  s->last.slices, s->last.portions);
     strbuf_cstr(out, "memory\n");
     bytes(out, "scene, device", s->scene_bytes);
-    bytes(out, "band, device", s->band_bytes);
+    bytes(out, "band, device", s->portion_bytes);
     bytes(out, "process, peak", (uint64_t)s->peak_memory_bytes);
     if (s->has_audit)
         put_audit(&s->audit, out);
@@ -236,9 +237,9 @@ void stats_json(const struct stats *s, struct strbuf *out) {
     json_write_integer(&w, "tree_levels", s->triangle_depth);
     json_write_integer(&w, "dispatches", s->last.dispatches);
     json_write_integer(&w, "slices", s->last.slices);
-    json_write_integer(&w, "bands", s->last.bands);
+    json_write_integer(&w, "bands", s->last.portions);
     json_write_integer(&w, "scene_bytes", s->scene_bytes);
-    json_write_integer(&w, "band_bytes", s->band_bytes);
+    json_write_integer(&w, "band_bytes", s->portion_bytes);
     json_write_integer(&w, "peak_memory_bytes", (uint64_t)s->peak_memory_bytes);
     if (s->has_audit)
         json_audit(&w, &s->audit);

@@ -19,7 +19,7 @@ struct stats {
     double median_frame_seconds, least_frame_seconds, most_frame_seconds;
     int32_t frames;
     struct render_statistics last;
-    uint64_t scene_bytes, band_bytes, triangles, dropped, spheres;
+    uint64_t scene_bytes, portion_bytes, triangles, dropped, spheres;
     uint32_t triangle_depth;
     uint64_t features;
     bool is_double;         // the precision that was used for tracing

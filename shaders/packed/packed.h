@@ -104,8 +104,8 @@ static inline enum packed_word packed_word_of(uint32_t opcode, uint32_t index) {
     return index == 1 && packed_has_type(opcode) ? PACKED_TYPE : PACKED_ID;
 }
 
-// Before the first function: the word from which an instruction's later ids are counted, the id that it makes
-// or decorates.
+// Of an instruction before the first function: the word with the id that it makes or decorates. The ids that
+// follow, in it and after it, are stored as their distance from this one.
 static inline uint32_t packed_result(uint32_t opcode) {
     return packed_has_type(opcode) ? 2 : 1;
 }

@@ -1,9 +1,9 @@
 // Pictures whose pixels end by their error: what they state of themselves, against the same picture with many
-// more samples that it does not share; what they save; and that neither bands nor workgroups change a byte.
+// more samples that it does not share; what they save; and that neither portions nor workgroups change them.
 //
 // Usage: test_adaptive errors|hold|unseen|cuts|cuts-storage SAMPLES SCENE...
 //   errors: a line a scene, against SAMPLES samples   hold: the same in less time, without how many samples
-//   all would need    unseen: of any scenes, only what a picture promises    cuts: bands, workgroups and
+//   all would need    unseen: of any scenes, only what a picture promises    cuts: portions, workgroups and
 //   dispatches of other sizes, on a device that traces as GPUs do with -storage
 #include "grammar/ir.h"
 #include "load/session_precision.h"
@@ -208,19 +208,19 @@ static void compare_cuts(struct study *s, const char *path) {
     struct render_settings settings = settings_of(s);
     settings.error = BOUND;
     settings.samples = 64;
-    // Small, but of tiles in lines and columns that bands and dispatches cut.
+    // Small, but of tiles in lines and columns that portions and dispatches cut.
     settings.width = 5 * SIDE;
     settings.height = 4 * SIDE + SIDE / 2;
     bool good = draw(s, &settings, &whole);
     for (uint32_t i = 0; good && i < 3; i++) {
         struct render_settings other = settings;
         other.workgroup = i == 0 ? 8 : 0;
-        other.band_tiles = i == 1 ? 5 : 0;
+        other.portion_tiles = i == 1 ? 5 : 0;
         other.dispatch_paths = i == 2 ? 256 : 0;
         good = draw(s, &other, &cut);
         expect(s, good && memcmp(&whole, &cut, sizeof whole) == 0, path,
                i == 0   ? "is the same in other workgroups"
-               : i == 1 ? "is the same in bands"
+               : i == 1 ? "is the same in portions"
                         : "is the same in dispatches");
     }
     expect(s, good, path, "is drawn");

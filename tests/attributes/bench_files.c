@@ -14,7 +14,7 @@ enum {
 const str bench_meshes[BENCH_MESHES] = {{"octahedron.obj", sizeof "octahedron.obj" - 1},
                                         {"wedge.obj", sizeof "wedge.obj" - 1}};
 
-// A picture of a few colours as background: bands that a rotation moves.
+// A picture of a few colours as background: stripes that a rotation moves.
 bool bench_write_sky(const char *work) {
     char path[PATH_BYTES];
     struct image sky;

@@ -59,7 +59,7 @@ static void test_pieces(struct shot *shot, struct image *image) {
     expect(sender.dispatches == 1, "the signal is heard after the first piece");
 }
 
-// How many paths a dispatch gets is up to their cost. Its bound is for a busy machine too; all of a band's
+// How many paths a dispatch gets is up to their cost. Its bound is for a busy machine too; all of a portion's
 // paths together take seconds.
 static void test_pace(struct shot *shot, struct image *image) {
     const double mean_most = 0.2;

@@ -1,4 +1,4 @@
-// How a frame is made does not show in it: bands, slices, a frame cancelled before, and the part of the
+// How a frame is made does not show in it: portions, slices, a frame cancelled before, and the part of the
 // picture that is asked for.
 //
 // Usage: test_frames SCENE [storage] [saved], a scene in which paths branch and none is deeper than 20 levels
@@ -102,10 +102,10 @@ static void test_cancel(struct frames *f) {
     close_stage(&stage);
 }
 
-// ---- bands and slices
+// ---- portions and slices
 
 // A path's state grows with max_depth; by weight no path gets that deep.
-static void test_bands(struct frames *f) {
+static void test_portions(struct frames *f) {
     struct stage stage;
     struct image one = {0}, many = {0}, deep = {0}, counted = {0};
     struct render_statistics of_one = {0}, of_many = {0}, of_deep = {0};
@@ -115,14 +115,15 @@ static void test_bands(struct frames *f) {
     stage.shot.settings.min_weight = 0.01;
     stage.shot.settings.max_depth = 20;
     bool good = apply(&stage) && take(&stage, &one, &of_one);
-    stage.shot.settings.band_tiles = 45; // a GPU has room for all of this picture at once
+    stage.shot.settings.portion_tiles = 45; // a GPU has room for all of this picture at once
     good = apply(&stage) && take(&stage, &many, &of_many) && good;
     stage.shot.settings.max_depth = 64;
     good = apply(&stage) && take(&stage, &deep, &of_deep) && good;
     good = good && renderer_count(stage.shot.renderer, &stage.shot.view.camera, NULL, &rays) == RENDER_DONE;
     expect(f, good && rays.deepest < 20 && rays.primary == (uint64_t)96 * 72 * 2, "no path needs more depth");
-    expect(f, of_one.bands == 1 && of_many.bands > 1 && of_deep.bands > 1, "one band, and several");
-    expect(f, good && picture_differences(&one, &many, "bands") == 0, "bands do not show");
+    expect(f, of_one.portions == 1 && of_many.portions > 1 && of_deep.portions > 1,
+           "one portion, and several");
+    expect(f, good && picture_differences(&one, &many, "portions") == 0, "portions do not show");
     expect(f, good && picture_differences(&one, &deep, "deep") == 0, "room for deeper paths does not show");
     good = take(&stage, &counted, &of_deep) && picture_differences(&one, &counted, "after counting") == 0;
     expect(f, good, "counting rays does not show");
@@ -201,7 +202,7 @@ static void test_followed(struct frames *f) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases && good; i++) {
         stage.shot.settings.slice_iterations = cases[i][0];
         stage.shot.settings.places = cases[i][1];
-        stage.shot.settings.band_tiles = 400 + (uint32_t)i; // with which all is made anew
+        stage.shot.settings.portion_tiles = 400 + (uint32_t)i; // with which all is made anew
         for (int turn = 0; turn < 2 && good; turn++) {
             good = apply(&stage) && take(&stage, &image, &statistics) &&
                    (!apart || turn == 0 || statistics.slices > 0) &&
@@ -283,9 +284,9 @@ static void test_crop(struct frames *f) {
     struct render_statistics statistics;
     if (!open_stage(f, &large, WIDTH, HEIGHT, 1))
         return;
-    large.shot.settings.band_tiles = 1024;
+    large.shot.settings.portion_tiles = 1024;
     bool good = apply(&large) && take(&large, &whole, &statistics);
-    expect(f, good && statistics.bands > 1, "a picture of several bands");
+    expect(f, good && statistics.portions > 1, "a picture of several portions");
     good = open_stage(f, &small, WIDTH / 2, HEIGHT / 2, 1) && good;
     small.shot.view.camera.tan_half_fov = large.shot.view.camera.tan_half_fov / 2;
     good = good && take(&small, &middle, &statistics) && image_init(&cut, WIDTH / 2, HEIGHT / 2);
@@ -354,7 +355,7 @@ static bool runs_out(void *context) {
 }
 
 // The picture is the one of as many samples, whether the limit comes between two or within one.
-static void test_limits(struct frames *f, uint32_t band_tiles) {
+static void test_limits(struct frames *f, uint32_t portion_tiles) {
     struct stage stage;
     struct image of[4] = {{0}}, image = {0};
     struct render_statistics statistics;
@@ -363,7 +364,7 @@ static void test_limits(struct frames *f, uint32_t band_tiles) {
     if (!open_stage(f, &stage, LIMITED_WIDTH, LIMITED_HEIGHT, 1))
         return;
     stage.shot.settings.dispatch_paths = 400;
-    stage.shot.settings.band_tiles = band_tiles;
+    stage.shot.settings.portion_tiles = portion_tiles;
     for (uint32_t n = 1; n <= 4; n++) {
         stage.shot.settings.samples = n;
         good = apply(&stage) && take(&stage, &of[n - 1], &statistics) && statistics.samples == n && good;
@@ -462,7 +463,7 @@ static void test_parts(struct frames *f) {
 
 static void test_whole_frames(struct frames *f) {
     test_cancel(f);
-    test_bands(f);
+    test_portions(f);
     test_crop(f);
     test_segments(f);
     test_limits(f, 0);

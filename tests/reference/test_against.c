@@ -34,8 +34,8 @@ struct pair {
 };
 
 struct verdict {
-    uint32_t outside, wrong_hits, wrong_outside; // outside: of the silhouette band
-    uint32_t wrong_lights, wrong_bounces;        // outside the band, where both see the same
+    uint32_t outside, wrong_hits, wrong_outside; // outside: not at silhouettes
+    uint32_t wrong_lights, wrong_bounces;        // not at silhouettes, where both see the same
     uint32_t wrong_numbers;                      // distance or normal
     uint32_t far_pixels, not_finite;
     double worst;
@@ -52,7 +52,7 @@ static bool same_numbers(const struct hit_pixel *a, const struct hit_pixel *b) {
 }
 
 // Whether the pixel or one of its neighbours sees another body than the pixel does.
-static bool in_band(const struct pair *p, uint32_t x, uint32_t y) {
+static bool at_silhouette(const struct pair *p, uint32_t x, uint32_t y) {
     uint32_t body = p->reference_hits[(size_t)y * p->width + x].body;
     for (uint32_t j = y ? y - 1 : 0; j <= y + 1 && j < p->height; j++)
         for (uint32_t i = x ? x - 1 : 0; i <= x + 1 && i < p->width; i++)
@@ -68,7 +68,7 @@ static void compare_hits(const struct pair *p, struct verdict *v) {
             const struct hit_pixel *b = &p->reference_hits[(size_t)y * p->width + x];
             bool same = same_hit(a, b);
             v->wrong_hits += !same;
-            if (in_band(p, x, y))
+            if (at_silhouette(p, x, y))
                 continue;
             v->outside++;
             if (!same && v->wrong_outside++ == 0) {

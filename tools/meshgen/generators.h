@@ -7,7 +7,7 @@
 
 #include "tools/meshgen/mesh.h"
 
-// A band that follows a trefoil knot and turns as it goes: smooth, one sided to the eye, closed.
+// A ribbon that follows a trefoil knot and turns as it goes: smooth, one sided to the eye, closed.
 void sculpture_generate(struct mesh *mesh);
 
 // A round brilliant of 73 facets, girdle radius 1, culet down.

@@ -67,7 +67,7 @@ static bool write_fox_mtl(struct strbuf *bytes) {
 }
 
 static const struct product PRODUCTS[] = {
-    {"sculpture", "a band along a trefoil knot", sculpture_generate, NULL, NULL},
+    {"sculpture", "a ribbon along a trefoil knot", sculpture_generate, NULL, NULL},
     {"gem", "a round brilliant", gem_generate, NULL, NULL},
     {"fox", "a sitting fox", fox_generate, NULL, "fox.mtl"},
     {"fox-mtl", "the fox's colours", NULL, write_fox_mtl, NULL},

@@ -1,9 +1,9 @@
 #include "core/angle.h"
 #include "tools/meshgen/generators.h"
 
-// The band's middle line winds twice round the axis and three times through the hole of a torus. Its
-// section is a superellipse, long across the band; it makes TURN_HALVES half turns against the torus, so
-// that after one round the section meets itself turned, and the two faces of the band are one.
+// The ribbon's middle line winds twice round the axis and three times through the hole of a torus. Its
+// section is a superellipse, long across the ribbon; it makes TURN_HALVES half turns against the torus, so
+// that after one round the section meets itself turned, and the two faces of the ribbon are one.
 enum {
     STEPS_ALONG = 640,
     STEPS_ROUND = 48,
@@ -14,8 +14,8 @@ enum {
 
 static const double TORUS_RADIUS = 1.0;
 static const double TUBE_RADIUS = 0.46;
-static const double BAND_HALF_WIDTH = 0.27;
-static const double BAND_HALF_THICKNESS = 0.075;
+static const double RIBBON_HALF_WIDTH = 0.27;
+static const double RIBBON_HALF_THICKNESS = 0.075;
 static const double SECTION_POWER = 0.8; // 1 would be an ellipse, less is fuller
 
 // Signed power, for the superellipse.
@@ -39,8 +39,8 @@ static vec3 surface(double t, double angle) {
     double turn = 0.5 * TURN_HALVES * t;
     vec3 wide = vec3_add(vec3_mul(across, cos(turn)), vec3_mul(up, sin(turn)));
     vec3 thin = vec3_cross(tangent, wide);
-    return vec3_add(centre, vec3_add(vec3_mul(wide, BAND_HALF_WIDTH * fuller(cos(angle))),
-                                     vec3_mul(thin, BAND_HALF_THICKNESS * fuller(sin(angle)))));
+    return vec3_add(centre, vec3_add(vec3_mul(wide, RIBBON_HALF_WIDTH * fuller(cos(angle))),
+                                     vec3_mul(thin, RIBBON_HALF_THICKNESS * fuller(sin(angle)))));
 }
 
 // Central differences of the surface itself: the superellipse has no simple normal once it is swept.

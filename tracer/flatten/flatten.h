@@ -51,9 +51,9 @@ enum flat_reason {
 // A mesh that several models show.
 struct flat_use {
     const struct mesh *mesh;
-    uint32_t models, instances; // those that are instances
-    uint32_t copied;            // triangles of it that each instance has as copies
-    enum flat_reason reason;    // for the models that are copies, if any are
+    uint32_t models, instances; // how many models show it, and how many of these are instances
+    uint32_t copied;            // how many of its triangles each instance has as copies
+    enum flat_reason reason;    // why models are copies, if any are
     int64_t saved_bytes;        // on the device, by sharing everything possible; negative: copies are smaller
 };
 

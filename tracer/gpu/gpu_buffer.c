@@ -79,7 +79,8 @@ static bool allocate(struct gpu *gpu, struct gpu_buffer *buffer, VkBufferUsageFl
         !gpu_check(gpu, gpu->vk.vkBindBufferMemory(gpu->device, buffer->buffer, buffer->memory, 0),
                    "vkBindBufferMemory"))
         return false;
-    // Reading through a write-combined mapping is slow: beside a CPU, only cached memory is mapped.
+    // Reading through a write-combined mapping is slow, so memory of the device is mapped only if it is
+    // cached, as that of CPU devices is.
     const VkMemoryPropertyFlags flags = gpu->memory.memoryTypes[type].propertyFlags;
     const bool direct = host || (flags & (mappable | VK_MEMORY_PROPERTY_HOST_CACHED_BIT)) ==
                                     (mappable | VK_MEMORY_PROPERTY_HOST_CACHED_BIT);

@@ -33,7 +33,7 @@ struct prune_id {
     uint32_t spec;     // SpecId + 1; 0: none
     uint32_t uses;     // of a variable: 1: one store, and loads
     uint32_t holds;    // of a variable: what is stored there
-    uint32_t mentions; // of a label, by branches, and as the end or the continue part of others
+    uint32_t mentions; // of a label: how often branches lead there, or merges name it
     uint32_t number;   // its new id; 0: none yet
 };
 

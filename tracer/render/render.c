@@ -11,11 +11,11 @@
 #include <string.h>
 
 enum {
-    SHORT_PATH_RAYS = 4,    // paths of at most these are never saved
-    MANY_LIGHTS = 64,       // with more lights the sum keeps what rounding drops
-    BAND_TILES_MAX = 16384, // a megapixel: between bands, progress is reported and Ctrl-C handled
-    RUN_TILES = 8,          // few, so that threads with equally many runs have equally much work
-    RUNS_MOST = 65536,      // so that products fit 32 bits
+    SHORT_PATH_RAYS = 4,       // paths of at most these are never saved
+    MANY_LIGHTS = 64,          // with more lights the sum keeps what rounding drops
+    PORTION_TILES_MAX = 16384, // a megapixel: between portions, progress is reported and Ctrl-C handled
+    RUN_TILES = 8,             // few, so that threads with equally many runs have equally much work
+    RUNS_MOST = 65536,         // so that products fit 32 bits
     PATH_OUTPUT_BYTES = 16,
     PRIVATE_BRANCHES = 64,   // refracted rays that wait in a GPU's private memory, at most
     PATHS_AT_ONCE = 8 << 20, // enough that the last ones of a frame do not leave a GPU idle for long
@@ -56,10 +56,10 @@ static uint32_t run_step_of(uint32_t runs) {
     return 1;
 }
 
-// The most bytes of a band's output, and of its path state. A GPU needs a million paths at a time to be busy:
-// with 64 MiB the original's scene takes 4.2 ms on an H200, with 1 GiB 0.75 ms. lavapipe's threads wait for
-// each other at the end of a band: at 512x384, one band of 128 MiB takes 53 ms where two of 64 take 69.
-static uint64_t band_bytes(const struct gpu_device_info *device) {
+// The most bytes of a portion's output, and of its path state. A GPU needs a million paths at a time to be
+// busy: with 64 MiB the original's scene takes 4.2 ms on an H200, with 1 GiB 0.75 ms. lavapipe's threads wait
+// for each other at the end of a portion: at 512x384, one of 128 MiB takes 53 ms, two of 64 MiB take 69 ms.
+static uint64_t portion_bytes(const struct gpu_device_info *device) {
     const uint64_t least = 128u << 20, most = 1u << 30;
     uint64_t bytes = device->kind == GPU_CPU ? least : device->memory_bytes / 16;
     bytes = bytes < least ? least : bytes < most ? bytes : most;
@@ -107,14 +107,14 @@ static bool is_long_path(const struct renderer *renderer) {
            renderer->flat->light_count >= SHORT_PATH_RAYS;
 }
 
-// The number of a band's samples traced at once, and of places for saved paths: usually only a few paths are
-// saved.
+// The number of a portion's samples traced at once, and of places for saved paths: usually only a few paths
+// are saved.
 static void plan_at_once(struct renderer *renderer) {
-    const uint64_t slots = (uint64_t)renderer->band_tiles * TILE_PIXELS;
+    const uint64_t slots = (uint64_t)renderer->portion_tiles * TILE_PIXELS;
     const uint64_t fit = slots < PATHS_AT_ONCE ? PATHS_AT_ONCE / slots : 1;
     renderer->samples_at_once = least_of(least_of(fit, renderer->settings.samples), SAMPLES_AT_ONCE);
     const uint64_t paths = slots * renderer->samples_at_once, bytes = slot_state_bytes(renderer);
-    const uint64_t most = bytes ? band_bytes(gpu_info(renderer->gpu)) / bytes : 0;
+    const uint64_t most = bytes ? portion_bytes(gpu_info(renderer->gpu)) / bytes : 0;
     // Few paths have an open ray; other slices end if paths are long.
     const bool is_long = is_long_path(renderer);
     renderer->places = has_state(renderer) ? least_of(is_long ? paths : (paths + 7) / 8, most) : 0;
@@ -152,15 +152,15 @@ static void plan(struct renderer *renderer) {
     uint64_t slot_bytes = at_once ? 0 : slot_state_bytes(renderer);
     slot_bytes = slot_bytes > PATH_OUTPUT_BYTES ? slot_bytes : PATH_OUTPUT_BYTES;
     const struct gpu_device_info *device = gpu_info(renderer->gpu);
-    uint64_t tiles = band_bytes(device) / (slot_bytes * TILE_PIXELS);
-    tiles = device->kind != GPU_CPU || tiles < BAND_TILES_MAX ? tiles : BAND_TILES_MAX;
-    if (settings->band_tiles && settings->band_tiles < tiles)
-        tiles = settings->band_tiles;
-    // Bands have equal size: a small last one would keep only few threads busy.
-    const uint64_t bands = (renderer->tiles + tiles - 1) / tiles;
-    renderer->band_tiles = (uint32_t)((renderer->tiles + bands - 1) / bands);
+    uint64_t tiles = portion_bytes(device) / (slot_bytes * TILE_PIXELS);
+    tiles = device->kind != GPU_CPU || tiles < PORTION_TILES_MAX ? tiles : PORTION_TILES_MAX;
+    if (settings->portion_tiles && settings->portion_tiles < tiles)
+        tiles = settings->portion_tiles;
+    // Portions have equal size: a small last one would keep only few threads busy.
+    const uint64_t portions = (renderer->tiles + tiles - 1) / tiles;
+    renderer->portion_tiles = (uint32_t)((renderer->tiles + portions - 1) / portions);
     renderer->samples_at_once = 0;
-    renderer->places = has_state(renderer) ? renderer->band_tiles * TILE_PIXELS : 0;
+    renderer->places = has_state(renderer) ? renderer->portion_tiles * TILE_PIXELS : 0;
     if (at_once)
         plan_at_once(renderer);
 }
@@ -257,15 +257,15 @@ static bool upload_scene(struct renderer *renderer) {
     return renderer_make_background(renderer);
 }
 
-static bool make_band(struct renderer *renderer) {
+static bool make_portion(struct renderer *renderer) {
     const bool at_once = renderer->samples_at_once != 0;
-    const uint64_t slots = (uint64_t)renderer->band_tiles * TILE_PIXELS;
+    const uint64_t slots = (uint64_t)renderer->portion_tiles * TILE_PIXELS;
     const uint64_t paths = slots * (at_once ? renderer->samples_at_once : 1);
     const bool third = renderer_is_adaptive(renderer) || (at_once && has_state(renderer));
     const uint64_t lists = 2 * (uint64_t)renderer->places + (third ? paths : 0);
     const uint32_t zero[COUNTER_COUNT] = {0};
-    renderer->band = heap_array(slots, PATH_OUTPUT_BYTES);
-    return renderer->band &&
+    renderer->portion = heap_array(slots, PATH_OUTPUT_BYTES);
+    return renderer->portion &&
            renderer_upload(renderer, BINDING_OUTPUT, GPU_STORAGE, NULL, paths * PATH_OUTPUT_BYTES) &&
            renderer_upload(renderer, BINDING_STATE, GPU_STORAGE, NULL,
                            renderer->places * slot_state_bytes(renderer)) &&
@@ -276,10 +276,10 @@ static bool make_band(struct renderer *renderer) {
            renderer_make_at_once(renderer);
 }
 
-// What depends on the settings: the band's buffers and the kernel.
+// What depends on the settings: the portion's buffers and the kernel.
 static bool make_frame(struct renderer *renderer) {
     plan(renderer);
-    return make_band(renderer) && renderer_first_program(renderer, false);
+    return make_portion(renderer) && renderer_first_program(renderer, false);
 }
 
 static void drop_frame(struct renderer *renderer) {
@@ -294,8 +294,8 @@ static void drop_frame(struct renderer *renderer) {
         gpu_buffer_destroy(renderer->gpu, renderer->buffers[bindings[i]]);
         renderer->buffers[bindings[i]] = NULL;
     }
-    free(renderer->band);
-    renderer->band = NULL;
+    free(renderer->portion);
+    renderer->portion = NULL;
     free(renderer->estimate.error);
     free(renderer->estimate.samples);
     renderer->estimate = (struct render_estimate){0};
@@ -333,7 +333,7 @@ bool renderer_change(struct renderer *renderer, const struct flat_scene *flat,
     take_settings(renderer, settings);
     if (old.width == now->width && old.height == now->height && old.max_depth == now->max_depth &&
         old.features == now->features && old.alternative == now->alternative &&
-        old.workgroup == now->workgroup && old.band_tiles == now->band_tiles &&
+        old.workgroup == now->workgroup && old.portion_tiles == now->portion_tiles &&
         (old.error > 0) == (now->error > 0) && renderer_is_part(&old) == renderer_is_part(now) &&
         (old.samples == now->samples || renderer->samples_at_once == 0) &&
         (renderer->samples_at_once || renderer_most_waiting(renderer, true) <= renderer->path_stack))
@@ -395,15 +395,15 @@ void renderer_destroy(struct renderer *renderer) {
     free(renderer);
 }
 
-static bool is_of_band(int binding) {
+static bool is_of_portion(int binding) {
     return binding == BINDING_OUTPUT || binding == BINDING_STATE || binding == BINDING_COUNTERS ||
            binding == BINDING_PICTURE || binding == BINDING_SUMS || binding == BINDING_ORDER;
 }
 
-static uint64_t sum_bytes(const struct renderer *renderer, bool of_band) {
+static uint64_t sum_bytes(const struct renderer *renderer, bool of_portion) {
     uint64_t bytes = 0;
     for (int i = 0; i < GPU_BINDINGS; i++)
-        if (renderer->buffers[i] && is_of_band(i) == of_band)
+        if (renderer->buffers[i] && is_of_portion(i) == of_portion)
             bytes += gpu_buffer_bytes(renderer->buffers[i]);
     return bytes;
 }
@@ -411,6 +411,6 @@ static uint64_t sum_bytes(const struct renderer *renderer, bool of_band) {
 uint64_t renderer_scene_bytes(const struct renderer *renderer) {
     return sum_bytes(renderer, false);
 }
-uint64_t renderer_band_bytes(const struct renderer *renderer) {
+uint64_t renderer_portion_bytes(const struct renderer *renderer) {
     return sum_bytes(renderer, true);
 }

@@ -1,10 +1,10 @@
 // From a flat scene, a camera and a device to a picture of linear floats.
 //
 // A renderer holds the scene on the device and the compiled kernel, for as many frames as wanted. Pictures
-// are made in bands, samples, slices and pieces (docs/decisions/numbers.md), which do not affect the result.
-// Input: the flat scene is copied to the device, but must still outlive the renderer. Errors: RENDER_FAILED,
-// with the text in gpu_error. Ownership: renderer_destroy takes NULL. Thread safety: a renderer belongs to
-// its gpu's thread.
+// are made in portions (the tiles whose paths are in the device's memory at the same time), samples, slices
+// and pieces (docs/decisions/numbers.md), which do not affect the result. Input: the flat scene is copied to
+// the device, but must still outlive the renderer. Errors: RENDER_FAILED, with the text in gpu_error.
+// Ownership: renderer_destroy takes NULL. Thread safety: a renderer belongs to its gpu's thread.
 #ifndef GLINT_TRACER_RENDER_RENDER_H
 #define GLINT_TRACER_RENDER_RENDER_H
 
@@ -53,8 +53,8 @@ struct render_settings {
     uint32_t slice_iterations;           // SLICE_ITERATIONS of shaders/frame.h; 0: slices of one ray
     enum render_alternative alternative; // in single precision only
     uint32_t workgroup;                  // invocations of a workgroup, at most 128; 0: a tile's
-    uint32_t band_tiles;                 // most tiles of 8x8 pixels in a band; 0: as many as its memory holds
-    uint32_t dispatch_paths;             // the most paths of a dispatch; 0: as many as should finish soon
+    uint32_t portion_tiles;  // most tiles of 8x8 pixels in a portion; 0: as many as its memory holds
+    uint32_t dispatch_paths; // the most paths of a dispatch; 0: as many as should finish soon
     // Above 0: a pixel ends before it has all its samples if the error of its displayed colour, with 95 %
     // confidence over a tile, is at most this, 0..1, but not before it has `least_samples` (at least 4;
     // rounded up to a multiple of 4).
@@ -104,7 +104,7 @@ struct render_statistics {
     double wall_seconds;
     uint32_t samples;                               // per pixel; if pixels end by their error, at most
     uint64_t all_samples;                           // of all pixels
-    uint32_t bands, dispatches, slices;             // slices: dispatches that resumed paths
+    uint32_t portions, dispatches, slices;          // slices: dispatches that resumed paths
     struct render_fault faults[RENDER_FAULT_KINDS]; // by kind
     struct render_rays rays;                        // if the settings ask for it
 };
@@ -240,8 +240,8 @@ struct render_log {
 enum render_result renderer_log(struct renderer *renderer, const struct view_camera *camera, uint32_t x,
                                 uint32_t y, uint32_t sample, struct render_log *log);
 
-// Bytes on the device: of the scene, and of a band.
+// Bytes on the device: of the scene, and of a portion.
 uint64_t renderer_scene_bytes(const struct renderer *renderer);
-uint64_t renderer_band_bytes(const struct renderer *renderer);
+uint64_t renderer_portion_bytes(const struct renderer *renderer);
 
 #endif

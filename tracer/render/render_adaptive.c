@@ -21,21 +21,23 @@ enum {
     TILES_A_PIECE = 64,
     COLUMNS = TILE_SIDE,
 };
-// One-sided, for the normal distribution.
+// A normally distributed value exceeds its mean by more than this many standard deviations in one of twenty
+// cases.
 static const double SURE = 1.645;
 
-// Of a tile's error alone, squared, in the mean of its variances: that is above its own square by
-// 1.645 sqrt(2 + 2 / 3) of it in one of twenty tiles (conclude).
+// In 19 of 20 tiles the square of the error is at most this many times what the tile's variances say:
+// 1 + SURE sqrt(2 + 2 / 3), by the spread that `conclude` explains.
 static const double TILE_SURE = 3.686;
 
-// How many times the mean of its neighbours' an isolated variance is: at an edge two of eight are like it.
+// A variance is isolated if it is more than this many times the mean of its neighbours'. At an edge, where
+// two of the eight neighbours are like it, it is only 4 times that mean.
 static const float ALONE = 6;
 
 // Pixels that are drawn again: their share, and about how many at most.
 static const double AGAIN_PART = 0.04, AGAIN_MOST = 16384;
 
-// What is known about the pixels of a band, by slot.
-struct band {
+// What is known about the pixels of a portion, by slot.
+struct portion {
     struct renderer_frame *run;
     uint32_t begin, tiles;
     float (*sums)[GROUPS][3];
@@ -49,33 +51,33 @@ struct band {
     uint64_t ended;    // pixels of the frame
 };
 
-static void finish(struct band *band) {
-    free(band->sums);
-    free(band->variance);
-    free(band->samples);
-    free(band->faults);
-    free(band->list);
-    free(band->shown);
-    free(band->goes_on);
+static void finish(struct portion *portion) {
+    free(portion->sums);
+    free(portion->variance);
+    free(portion->samples);
+    free(portion->faults);
+    free(portion->list);
+    free(portion->shown);
+    free(portion->goes_on);
 }
 
-static bool make(struct band *band, uint32_t tiles) {
+static bool make(struct portion *portion, uint32_t tiles) {
     const size_t slots = heap_times(tiles, TILE_PIXELS);
-    band->sums = heap_array(slots, sizeof *band->sums);
-    band->variance = heap_array(slots, sizeof *band->variance);
-    band->samples = heap_array(slots, sizeof *band->samples);
-    band->faults = heap_array(slots, sizeof *band->faults);
-    band->list = heap_array(slots, sizeof *band->list);
-    band->shown = heap_array(heap_times(heap_times(slots, GROUPS), 3), sizeof *band->shown);
-    band->goes_on = heap_array(slots, sizeof *band->goes_on);
-    return band->sums && band->variance && band->samples && band->faults && band->list && band->shown &&
-           band->goes_on;
+    portion->sums = heap_array(slots, sizeof *portion->sums);
+    portion->variance = heap_array(slots, sizeof *portion->variance);
+    portion->samples = heap_array(slots, sizeof *portion->samples);
+    portion->faults = heap_array(slots, sizeof *portion->faults);
+    portion->list = heap_array(slots, sizeof *portion->list);
+    portion->shown = heap_array(heap_times(heap_times(slots, GROUPS), 3), sizeof *portion->shown);
+    portion->goes_on = heap_array(slots, sizeof *portion->goes_on);
+    return portion->sums && portion->variance && portion->samples && portion->faults && portion->list &&
+           portion->shown && portion->goes_on;
 }
 
 // ---- rounds
 
-// Samples of a pixel after the round that follows `samples`: twice as many, because the parts of the sequence
-// that cover evenly are those whose lengths are powers of two.
+// What a round makes of the number of samples that a pixel has: twice as many, because the parts of the
+// sequence that cover evenly are those whose lengths are powers of two.
 static uint32_t next_samples(const struct render_settings *settings, uint32_t samples) {
     const uint32_t most = settings->samples / GROUPS * GROUPS;
     const uint32_t least = (settings->least_samples + GROUPS - 1) / GROUPS * GROUPS;
@@ -83,53 +85,53 @@ static uint32_t next_samples(const struct render_settings *settings, uint32_t sa
     return next < most ? next : most;
 }
 
-static void take_sums(struct band *band, int group) {
-    const struct renderer *renderer = band->run->renderer;
-    for (uint32_t i = 0; i < band->count; i++) {
-        const uint32_t slot = band->list[i], *words = renderer->band + 4 * (size_t)slot;
+static void take_sums(struct portion *portion, int group) {
+    const struct renderer *renderer = portion->run->renderer;
+    for (uint32_t i = 0; i < portion->count; i++) {
+        const uint32_t slot = portion->list[i], *words = renderer->portion + 4 * (size_t)slot;
         for (int k = 0; k < 3; k++)
-            band->sums[slot][group][k] += float_of_bits(words[k]);
-        if (band->faults[slot] >> FAULT_KIND_SHIFT == FAULT_NONE)
-            band->faults[slot] = words[3];
+            portion->sums[slot][group][k] += float_of_bits(words[k]);
+        if (portion->faults[slot] >> FAULT_KIND_SHIFT == FAULT_NONE)
+            portion->faults[slot] = words[3];
     }
 }
 
 // Draws samples first .. end - 1 of the listed pixels, into a group.
-static enum render_result draw_group(struct band *band, int group, uint32_t first, uint32_t end) {
-    struct renderer *renderer = band->run->renderer;
+static enum render_result draw_group(struct portion *portion, int group, uint32_t first, uint32_t end) {
+    struct renderer *renderer = portion->run->renderer;
     for (uint32_t sample = first; sample < end; sample++) {
-        const enum render_result result =
-            renderer_draw_listed(band->run, band->begin, band->tiles, sample, sample - first, band->count);
+        const enum render_result result = renderer_draw_listed(portion->run, portion->begin, portion->tiles,
+                                                               sample, sample - first, portion->count);
         if (result != RENDER_DONE)
             return result;
     }
-    if (!gpu_read(renderer->gpu, renderer->buffers[BINDING_OUTPUT], 0, renderer->band,
-                  (uint64_t)band->tiles * TILE_PIXELS * sizeof(struct gpu_word)))
+    if (!gpu_read(renderer->gpu, renderer->buffers[BINDING_OUTPUT], 0, renderer->portion,
+                  (uint64_t)portion->tiles * TILE_PIXELS * sizeof(struct gpu_word)))
         return RENDER_FAILED;
-    take_sums(band, group);
+    take_sums(portion, group);
     return RENDER_DONE;
 }
 
-static bool write_list(const struct band *band) {
-    struct renderer *renderer = band->run->renderer;
+static bool write_list(const struct portion *portion) {
+    struct renderer *renderer = portion->run->renderer;
     const uint64_t at = COUNTER_COUNT + 2 * (uint64_t)renderer->places;
-    return gpu_write(renderer->gpu, renderer->buffers[BINDING_COUNTERS], at * sizeof *band->list, band->list,
-                     band->count * sizeof *band->list);
+    return gpu_write(renderer->gpu, renderer->buffers[BINDING_COUNTERS], at * sizeof *portion->list,
+                     portion->list, portion->count * sizeof *portion->list);
 }
 
-static enum render_result draw_round(struct band *band, uint32_t samples, uint32_t next) {
+static enum render_result draw_round(struct portion *portion, uint32_t samples, uint32_t next) {
     const uint32_t step = (next - samples) / GROUPS;
-    if (!write_list(band))
+    if (!write_list(portion))
         return RENDER_FAILED;
     for (int group = 0; group < GROUPS; group++) {
         const uint32_t first = samples + (uint32_t)group * step;
-        const enum render_result result = draw_group(band, group, first, first + step);
+        const enum render_result result = draw_group(portion, group, first, first + step);
         if (result != RENDER_DONE)
             return result;
     }
-    for (uint32_t i = 0; i < band->count; i++)
-        band->samples[band->list[i]] = next;
-    band->run->statistics->all_samples += (uint64_t)band->count * (next - samples);
+    for (uint32_t i = 0; i < portion->count; i++)
+        portion->samples[portion->list[i]] = next;
+    portion->run->statistics->all_samples += (uint64_t)portion->count * (next - samples);
     return RENDER_DONE;
 }
 
@@ -151,22 +153,23 @@ static float variance_of(const float *shown) {
 }
 
 // Whether all samples were finite; else nothing is known about the pixel.
-static bool is_sound(const struct band *band, uint32_t slot) {
-    return band->faults[slot] >> FAULT_KIND_SHIFT != FAULT_NOT_FINITE;
+static bool is_sound(const struct portion *portion, uint32_t slot) {
+    return portion->faults[slot] >> FAULT_KIND_SHIFT != FAULT_NOT_FINITE;
 }
 
-static void estimate(struct band *band) {
-    const struct render_settings *settings = &band->run->renderer->settings;
-    for (uint32_t i = 0; i < band->count; i++) {
-        const uint32_t slot = band->list[i];
-        const float part = (float)GROUPS / (float)band->samples[slot];
+static void estimate(struct portion *portion) {
+    const struct render_settings *settings = &portion->run->renderer->settings;
+    for (uint32_t i = 0; i < portion->count; i++) {
+        const uint32_t slot = portion->list[i];
+        const float part = (float)GROUPS / (float)portion->samples[slot];
         for (int c = 0; c < GROUPS * 3; c++)
-            band->shown[GROUPS * 3 * (size_t)i + (size_t)c] = band->sums[slot][c / 3][c % 3] * part;
+            portion->shown[GROUPS * 3 * (size_t)i + (size_t)c] = portion->sums[slot][c / 3][c % 3] * part;
     }
-    settings->show(settings->show_context, band->shown, (size_t)GROUPS * band->count, band->shown);
-    for (uint32_t i = 0; i < band->count; i++) {
-        const uint32_t slot = band->list[i];
-        band->variance[slot] = is_sound(band, slot) ? variance_of(band->shown + GROUPS * 3 * (size_t)i) : NAN;
+    settings->show(settings->show_context, portion->shown, (size_t)GROUPS * portion->count, portion->shown);
+    for (uint32_t i = 0; i < portion->count; i++) {
+        const uint32_t slot = portion->list[i];
+        portion->variance[slot] =
+            is_sound(portion, slot) ? variance_of(portion->shown + GROUPS * 3 * (size_t)i) : NAN;
     }
 }
 
@@ -192,8 +195,8 @@ static struct around look_around(const float *variance, int x, int y) {
     return around;
 }
 
-// Bright and rarely hit things show in a few pixels of a tile, but could have shown in the others as well:
-// the mean over the tile of the isolated variances.
+// The rare error of a tile: the isolated variances, averaged over all of its pixels. What is bright and
+// rarely hit shows in a few pixels of the tile, but the others could have hit it as well.
 static float rare_of_tile(const float *variance) {
     float sum = 0;
     int count = 0;
@@ -216,13 +219,13 @@ static float pooled(const float *variance, int x, int y, float rare) {
 }
 
 static void judge_tiles(void *context, size_t begin, size_t end) {
-    const struct band *band = context;
-    const double bound = band->run->renderer->settings.error;
+    const struct portion *portion = context;
+    const double bound = portion->run->renderer->settings.error;
     for (size_t tile = begin; tile < end; tile++) {
-        const float *variance = band->variance + tile * TILE_PIXELS, rare = rare_of_tile(variance);
+        const float *variance = portion->variance + tile * TILE_PIXELS, rare = rare_of_tile(variance);
         for (int i = 0; i < TILE_PIXELS; i++) {
             bool *goes_on =
-                &band->goes_on[tile * TILE_PIXELS + (size_t)slot_in_tile(i % COLUMNS, i / COLUMNS)];
+                &portion->goes_on[tile * TILE_PIXELS + (size_t)slot_in_tile(i % COLUMNS, i / COLUMNS)];
             const float most = pooled(variance, i % COLUMNS, i / COLUMNS, rare);
             *goes_on = *goes_on && TILE_SURE * (double)most > bound * bound;
         }
@@ -230,51 +233,51 @@ static void judge_tiles(void *context, size_t begin, size_t end) {
 }
 
 // Keeps the pixels of the list that go on. Pixels that are not finite do not get better.
-static void shorten_list(struct band *band) {
+static void shorten_list(struct portion *portion) {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < band->count; i++) {
-        const uint32_t slot = band->list[i];
-        if (band->goes_on[slot] && is_sound(band, slot))
-            band->list[count++] = slot;
+    for (uint32_t i = 0; i < portion->count; i++) {
+        const uint32_t slot = portion->list[i];
+        if (portion->goes_on[slot] && is_sound(portion, slot))
+            portion->list[count++] = slot;
     }
-    band->count = count;
+    portion->count = count;
 }
 
-// ---- a band
+// ---- a portion
 
-static void begin_band(struct band *band) {
-    const size_t slots = (size_t)band->tiles * TILE_PIXELS;
-    memset(band->sums, 0, slots * sizeof *band->sums);
-    band->count = 0;
+static void begin_portion(struct portion *portion) {
+    const size_t slots = (size_t)portion->tiles * TILE_PIXELS;
+    memset(portion->sums, 0, slots * sizeof *portion->sums);
+    portion->count = 0;
     for (uint32_t slot = 0; slot < slots; slot++) {
         uint32_t x, y;
-        const bool exists = renderer_pixel(band->run->renderer, band->begin, slot, &x, &y);
-        band->variance[slot] = NAN;
-        band->samples[slot] = band->faults[slot] = 0;
-        band->goes_on[slot] = exists;
+        const bool exists = renderer_pixel(portion->run->renderer, portion->begin, slot, &x, &y);
+        portion->variance[slot] = NAN;
+        portion->samples[slot] = portion->faults[slot] = 0;
+        portion->goes_on[slot] = exists;
         if (exists)
-            band->list[band->count++] = slot;
+            portion->list[portion->count++] = slot;
     }
 }
 
-static void put_pixel(const struct band *band, uint32_t slot, float *rgb) {
-    struct renderer *renderer = band->run->renderer;
+static void put_pixel(const struct portion *portion, uint32_t slot, float *rgb) {
+    struct renderer *renderer = portion->run->renderer;
     uint32_t x, y;
-    if (!renderer_pixel(renderer, band->begin, slot, &x, &y))
+    if (!renderer_pixel(renderer, portion->begin, slot, &x, &y))
         return;
     const size_t pixel = (size_t)y * renderer->settings.width + x;
-    const bool sound = is_sound(band, slot);
+    const bool sound = is_sound(portion, slot);
     for (int k = 0; k < 3; k++) {
         float sum = 0;
         for (int group = 0; group < GROUPS; group++)
-            sum += band->sums[slot][group][k];
-        rgb[3 * pixel + (size_t)k] = sound ? sum / (float)band->samples[slot] : NAN;
+            sum += portion->sums[slot][group][k];
+        rgb[3 * pixel + (size_t)k] = sound ? sum / (float)portion->samples[slot] : NAN;
     }
-    const float *tile = band->variance + slot / TILE_PIXELS * TILE_PIXELS;
+    const float *tile = portion->variance + slot / TILE_PIXELS * TILE_PIXELS;
     const float most = pooled(tile, (int)(x % TILE_SIDE), (int)(y % TILE_SIDE), rare_of_tile(tile));
     renderer->estimate.error[pixel] = sound ? sqrtf((float)TILE_SURE * most) : NAN;
     renderer->estimate.unknown += !sound;
-    renderer->estimate.samples[pixel] = band->samples[slot];
+    renderer->estimate.samples[pixel] = portion->samples[slot];
 }
 
 // Sums over the tiles: of the variances, and of the squares of a tile's variance. Sums over the pixels that
@@ -285,20 +288,20 @@ struct total {
     uint32_t again;
 };
 
-static void end_band(const struct band *band, float *rgb, struct total *total) {
-    struct renderer *renderer = band->run->renderer;
-    for (uint32_t slot = 0; rgb && slot < band->tiles * TILE_PIXELS; slot++) {
+static void end_portion(const struct portion *portion, float *rgb, struct total *total) {
+    struct renderer *renderer = portion->run->renderer;
+    for (uint32_t slot = 0; rgb && slot < portion->tiles * TILE_PIXELS; slot++) {
         uint32_t x, y;
-        put_pixel(band, slot, rgb);
-        if (band->faults[slot] >> FAULT_KIND_SHIFT != FAULT_NONE &&
-            renderer_pixel(renderer, band->begin, slot, &x, &y))
-            renderer_note_fault(renderer, band->faults[slot], 1, x, y,
-                                &band->run->statistics->faults[band->faults[slot] >> FAULT_KIND_SHIFT]);
+        put_pixel(portion, slot, rgb);
+        if (portion->faults[slot] >> FAULT_KIND_SHIFT != FAULT_NONE &&
+            renderer_pixel(renderer, portion->begin, slot, &x, &y))
+            renderer_note_fault(renderer, portion->faults[slot], 1, x, y,
+                                &portion->run->statistics->faults[portion->faults[slot] >> FAULT_KIND_SHIFT]);
     }
-    for (uint32_t tile = 0; tile < band->tiles; tile++) {
+    for (uint32_t tile = 0; tile < portion->tiles; tile++) {
         double sum = 0;
         for (int i = 0; i < TILE_PIXELS; i++) {
-            const float v = band->variance[tile * TILE_PIXELS + (uint32_t)i];
+            const float v = portion->variance[tile * TILE_PIXELS + (uint32_t)i];
             sum += isnan(v) ? 0 : (double)v;
         }
         total->variance += sum;
@@ -308,100 +311,100 @@ static void end_band(const struct band *band, float *rgb, struct total *total) {
 
 // ---- pixels that are drawn again
 
-// The groups of a pixel are parts of one sequence. What none of its samples met is missing from all groups,
-// and if a picture is as fine as the sequence, the groups can differ by less than the error of their mean:
-// its square is up to twice as large as for independent places (Owen 1997, "Monte Carlo Variance of Scrambled
-// Net Quadrature"). So some pixels, chosen at random, are drawn again when they have ended, with as many
-// samples from a different sequence: half of the squared difference is the squared error.
+// The groups of a pixel are parts of one sequence, so they can differ by less than their mean errs. What none
+// of the samples hit is missing from every group; and if the picture is as fine as the sequence, the square
+// of the error is up to twice that of independent samples (Owen 1997, "Monte Carlo Variance of Scrambled Net
+// Quadrature"). So some pixels, chosen at random, are drawn again when they have ended, with as many samples
+// from a different sequence: half of the squared difference estimates the squared error.
 static bool is_drawn_again(const struct render_settings *settings, uint32_t x, uint32_t y) {
     const double part = AGAIN_MOST / ((double)settings->width * settings->height);
     const uint32_t hash = point_hash(point_hash(x + settings->first_x) + y + settings->first_y);
     return hash * 0x1p-32 < fmin(part, AGAIN_PART);
 }
 
-static void list_again(struct band *band, uint32_t samples) {
-    band->count = 0;
-    for (uint32_t slot = 0; slot < band->tiles * TILE_PIXELS; slot++) {
+static void list_again(struct portion *portion, uint32_t samples) {
+    portion->count = 0;
+    for (uint32_t slot = 0; slot < portion->tiles * TILE_PIXELS; slot++) {
         uint32_t x, y;
-        if (band->samples[slot] == samples && is_sound(band, slot) &&
-            renderer_pixel(band->run->renderer, band->begin, slot, &x, &y) &&
-            is_drawn_again(&band->run->renderer->settings, x, y))
-            band->list[band->count++] = slot;
+        if (portion->samples[slot] == samples && is_sound(portion, slot) &&
+            renderer_pixel(portion->run->renderer, portion->begin, slot, &x, &y) &&
+            is_drawn_again(&portion->run->renderer->settings, x, y))
+            portion->list[portion->count++] = slot;
     }
 }
 
 // Moves the mean of a pixel's samples to `to`; its sums are cleared.
-static void take_mean(struct band *band, uint32_t slot, float *to) {
+static void take_mean(struct portion *portion, uint32_t slot, float *to) {
     for (int k = 0; k < 3; k++) {
         to[k] = 0;
         for (int group = 0; group < GROUPS; group++)
-            to[k] += band->sums[slot][group][k] / (float)band->samples[slot];
+            to[k] += portion->sums[slot][group][k] / (float)portion->samples[slot];
     }
-    memset(band->sums[slot], 0, sizeof band->sums[slot]);
+    memset(portion->sums[slot], 0, sizeof portion->sums[slot]);
 }
 
-static void add_excess(const struct band *band, struct total *total) {
-    for (uint32_t i = 0; i < band->count; i++) {
-        const float *first = band->shown + 3 * (size_t)i, *second = first + 3 * (size_t)band->count;
+static void add_excess(const struct portion *portion, struct total *total) {
+    for (uint32_t i = 0; i < portion->count; i++) {
+        const float *first = portion->shown + 3 * (size_t)i, *second = first + 3 * (size_t)portion->count;
         double square = 0;
         for (int k = 0; k < 3; k++)
             square += pow((double)first[k] - (double)second[k], 2) / (2 * 3);
-        if (!is_sound(band, band->list[i]) || !isfinite(square))
+        if (!is_sound(portion, portion->list[i]) || !isfinite(square))
             continue;
-        const double excess = square - (double)band->variance[band->list[i]];
+        const double excess = square - (double)portion->variance[portion->list[i]];
         total->excess += excess;
         total->excess_squares += excess * excess;
         total->again++;
     }
 }
 
-// Draws again pixels that have ended with this number of samples. Sample numbers from a power of two on that
-// the picture does not use belong to another sequence.
-static enum render_result draw_again(struct band *band, uint32_t samples, struct total *total) {
-    const struct render_settings *settings = &band->run->renderer->settings;
+// Draws again the chosen pixels that ended with this many samples. The new samples are numbered from the
+// first multiple of 2^bits that the picture does not reach: there another sequence begins.
+static enum render_result draw_again(struct portion *portion, uint32_t samples, struct total *total) {
+    const struct render_settings *settings = &portion->run->renderer->settings;
     const uint32_t bits = points_bits(settings->first_sample, settings->samples);
     const uint32_t first = (((settings->samples - 1) >> bits) + 1) << bits;
-    list_again(band, samples);
-    if (band->count == 0)
+    list_again(portion, samples);
+    if (portion->count == 0)
         return RENDER_DONE;
-    for (uint32_t i = 0; i < band->count; i++)
-        take_mean(band, band->list[i], band->shown + 3 * (size_t)i);
+    for (uint32_t i = 0; i < portion->count; i++)
+        take_mean(portion, portion->list[i], portion->shown + 3 * (size_t)i);
     const enum render_result result =
-        write_list(band) ? draw_group(band, 0, first, first + samples) : RENDER_FAILED;
+        write_list(portion) ? draw_group(portion, 0, first, first + samples) : RENDER_FAILED;
     if (result != RENDER_DONE)
         return result;
-    for (uint32_t i = 0; i < band->count; i++)
-        take_mean(band, band->list[i], band->shown + 3 * ((size_t)band->count + i));
-    settings->show(settings->show_context, band->shown, 2 * (size_t)band->count, band->shown);
-    add_excess(band, total);
+    for (uint32_t i = 0; i < portion->count; i++)
+        take_mean(portion, portion->list[i], portion->shown + 3 * ((size_t)portion->count + i));
+    settings->show(settings->show_context, portion->shown, 2 * (size_t)portion->count, portion->shown);
+    add_excess(portion, total);
     return RENDER_DONE;
 }
 
-static enum render_result draw_band(struct band *band, float *rgb, struct total *total) {
-    const struct render_settings *settings = &band->run->renderer->settings;
+static enum render_result draw_portion(struct portion *portion, float *rgb, struct total *total) {
+    const struct render_settings *settings = &portion->run->renderer->settings;
     enum render_result result = RENDER_DONE;
-    begin_band(band);
-    for (uint32_t samples = 0, next; band->count > 0 && result == RENDER_DONE; samples = next) {
+    begin_portion(portion);
+    for (uint32_t samples = 0, next; portion->count > 0 && result == RENDER_DONE; samples = next) {
         next = next_samples(settings, samples);
         if (next == samples)
             break;
-        result = draw_round(band, samples, next);
+        result = draw_round(portion, samples, next);
         if (result != RENDER_DONE)
             return result;
-        estimate(band);
-        parallel_for(band->tiles, TILES_A_PIECE, judge_tiles, band);
-        band->ended += band->count;
-        shorten_list(band);
-        band->ended -= band->count;
-        band->run->steps_done = band->ended;
+        estimate(portion);
+        parallel_for(portion->tiles, TILES_A_PIECE, judge_tiles, portion);
+        portion->ended += portion->count;
+        shorten_list(portion);
+        portion->ended -= portion->count;
+        portion->run->steps_done = portion->ended;
     }
-    band->ended += band->count;
-    end_band(band, rgb, total);
+    portion->ended += portion->count;
+    end_portion(portion, rgb, total);
     for (uint32_t samples = 0, next; result == RENDER_DONE; samples = next) {
         next = next_samples(settings, samples);
         if (next == samples)
             break;
-        result = draw_again(band, next, total);
+        result = draw_again(portion, next, total);
     }
     return result;
 }
@@ -418,10 +421,11 @@ static bool make_estimate(struct renderer *renderer) {
     return estimate->error && estimate->samples;
 }
 
-// Neither the errors nor their estimates are independent within a tile, because edges continue; a tile's
-// squared error has a variance of twice its square, and an estimate from four groups one of two thirds of it.
-// If the pixels that were drawn again indicate more than that, they count: for all pixels, with their own
-// spread.
+// How large the error of the whole picture may be. Edges continue from pixel to pixel, so within a tile
+// neither errors nor estimates are independent, and a tile counts as one value: its squared error has a
+// variance of twice its own square, and the estimate from four groups adds two thirds of that square. The
+// pixels that were drawn again give a second estimate, which has a spread of its own; the larger of the two
+// counts.
 static void conclude(struct renderer *renderer, const struct total *total) {
     const double all = (double)renderer->settings.width * renderer->settings.height;
     const double pixels = fmax(all - renderer->estimate.unknown, 1), again = total->again;
@@ -438,19 +442,19 @@ static void conclude(struct renderer *renderer, const struct total *total) {
 
 enum render_result renderer_draw_adaptive(struct renderer_frame *run, float *rgb) {
     struct renderer *renderer = run->renderer;
-    struct band band = {.run = run};
+    struct portion portion = {.run = run};
     struct total total = {0};
     run->statistics->all_samples = 0;
     renderer->estimate.unknown = 0;
     run->steps = (uint64_t)renderer->settings.width * renderer->settings.height;
     enum render_result result =
-        make_estimate(renderer) && make(&band, renderer->band_tiles) ? RENDER_DONE : RENDER_FAILED;
-    for (; result == RENDER_DONE && band.begin < renderer->tiles; band.begin += band.tiles) {
-        const uint32_t left = renderer->tiles - band.begin;
-        band.tiles = left < renderer->band_tiles ? left : renderer->band_tiles;
-        result = draw_band(&band, rgb, &total);
+        make_estimate(renderer) && make(&portion, renderer->portion_tiles) ? RENDER_DONE : RENDER_FAILED;
+    for (; result == RENDER_DONE && portion.begin < renderer->tiles; portion.begin += portion.tiles) {
+        const uint32_t left = renderer->tiles - portion.begin;
+        portion.tiles = left < renderer->portion_tiles ? left : renderer->portion_tiles;
+        result = draw_portion(&portion, rgb, &total);
     }
-    finish(&band);
+    finish(&portion);
     if (result == RENDER_DONE)
         conclude(renderer, &total);
     return result;

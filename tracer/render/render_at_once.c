@@ -1,5 +1,5 @@
 // A frame whose samples are traced at once: the last paths of a dispatch, and each wait for it, leave a GPU
-// idle. So a band's samples share a dispatch, and what follows it (sums, picture, counters, copies to this
+// idle. So a portion's samples share a dispatch, and what follows it (sums, picture, counters, copies to this
 // process) is recorded with it.
 #include "tracer/render/render_private.h"
 
@@ -28,7 +28,7 @@ static bool make_named(struct renderer *renderer, uint64_t picture, uint64_t ord
 bool renderer_make_at_once(struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
     const uint64_t picture = (uint64_t)settings->width * settings->height * 3 * sizeof(float);
-    const uint64_t slots = (uint64_t)renderer->band_tiles * TILE_PIXELS;
+    const uint64_t slots = (uint64_t)renderer->portion_tiles * TILE_PIXELS;
     const bool has_sums = settings->samples > renderer->samples_at_once;
     if (renderer->samples_at_once == 0)
         return gpu_fetches_texels(renderer->gpu) || make_named(renderer, 0, 0);
@@ -74,7 +74,7 @@ static bool note_faults(struct renderer_frame *run) {
 }
 
 static enum render_result draw_samples(struct renderer_frame *run, struct dispatch_block *block,
-                                       uint32_t first, bool last_band) {
+                                       uint32_t first, bool last_portion) {
     struct renderer *renderer = run->renderer;
     const uint32_t left = renderer->settings.samples - first;
     block->samples = left < renderer->samples_at_once ? left : renderer->samples_at_once;
@@ -82,7 +82,7 @@ static enum render_result draw_samples(struct renderer_frame *run, struct dispat
     run->resolve = *block;
     run->resolve.sample_index = first;
     run->shows = left == block->samples;
-    run->shows_all = run->shows && last_band;
+    run->shows_all = run->shows && last_portion;
     block->shows = renderer->settings.samples == 1;
     if (!renderer_write_samples(renderer, first, block->samples) ||
         (block->shows && !renderer_clear_faults(renderer)))
@@ -97,11 +97,12 @@ static enum render_result draw_samples(struct renderer_frame *run, struct dispat
     return renderer_is_wanted(run, 0) ? RENDER_DONE : RENDER_CANCELLED;
 }
 
-static enum render_result draw_band(struct renderer_frame *run, uint32_t tile_begin, bool *is_last) {
+static enum render_result draw_portion(struct renderer_frame *run, uint32_t tile_begin, bool *is_last) {
     struct renderer *renderer = run->renderer;
     const uint32_t left = renderer->tiles - tile_begin;
     struct dispatch_block block = {.tile_begin = tile_begin,
-                                   .tile_count = left < renderer->band_tiles ? left : renderer->band_tiles};
+                                   .tile_count =
+                                       left < renderer->portion_tiles ? left : renderer->portion_tiles};
     *is_last = block.tile_count == left;
     enum render_result result = RENDER_DONE;
     for (uint32_t first = 0; result == RENDER_DONE && first < renderer->settings.samples;
@@ -130,8 +131,8 @@ enum render_result renderer_draw_at_once(struct renderer_frame *run, float *rgb)
     const struct render_settings *settings = &renderer->settings;
     enum render_result result = RENDER_DONE;
     bool is_last = false;
-    for (uint32_t begin = 0; result == RENDER_DONE && !is_last; begin += renderer->band_tiles)
-        result = draw_band(run, begin, &is_last);
+    for (uint32_t begin = 0; result == RENDER_DONE && !is_last; begin += renderer->portion_tiles)
+        result = draw_portion(run, begin, &is_last);
     run->shows = run->shows_all = false;
     if (result != RENDER_DONE || !rgb)
         return result;

@@ -1,4 +1,4 @@
-// One frame: its uniforms, bands and samples.
+// One frame: its uniforms, portions and samples.
 #include "core/angle.h"
 #include "scene/points.h"
 #include "tracer/render/render_private.h"
@@ -160,8 +160,8 @@ bool renderer_write_frame(struct renderer *renderer, const struct view_camera *c
     return gpu_write(renderer->gpu, renderer->buffers[BINDING_FRAME], 0, &frame, sizeof frame);
 }
 
-static enum render_result draw_band(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
-                                    float *rgb) {
+static enum render_result draw_portion(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
+                                       float *rgb) {
     struct renderer *renderer = run->renderer;
     for (uint32_t sample = 0; sample < renderer->settings.samples; sample++) {
         const enum render_result result = renderer_draw_sample(run, tile_begin, tile_count, sample);
@@ -182,8 +182,8 @@ bool renderer_begin_frame(struct renderer_frame *run, const struct view_camera *
     const struct renderer *renderer = run->renderer;
     run->steps_done = 0;
     run->met_long_ray = false;
-    run->statistics->bands = (renderer->tiles + renderer->band_tiles - 1) / renderer->band_tiles;
-    run->steps = (uint64_t)run->statistics->bands * renderer->settings.samples;
+    run->statistics->portions = (renderer->tiles + renderer->portion_tiles - 1) / renderer->portion_tiles;
+    run->steps = (uint64_t)run->statistics->portions * renderer->settings.samples;
     run->statistics->samples = renderer->settings.samples;
     run->statistics->all_samples =
         (uint64_t)renderer->settings.width * renderer->settings.height * renderer->settings.samples;
@@ -199,9 +199,10 @@ enum render_result renderer_draw_frame(struct renderer_frame *run, const struct 
         return renderer_draw_adaptive(run, rgb);
     if (result == RENDER_DONE && renderer->samples_at_once)
         return renderer_draw_at_once(run, rgb);
-    for (uint32_t begin = 0; result == RENDER_DONE && begin < tiles; begin += renderer->band_tiles) {
+    for (uint32_t begin = 0; result == RENDER_DONE && begin < tiles; begin += renderer->portion_tiles) {
         const uint32_t left = tiles - begin;
-        result = draw_band(run, begin, left < renderer->band_tiles ? left : renderer->band_tiles, rgb);
+        result =
+            draw_portion(run, begin, left < renderer->portion_tiles ? left : renderer->portion_tiles, rgb);
     }
     return result;
 }

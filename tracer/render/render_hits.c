@@ -1,4 +1,4 @@
-// What every pixel's first ray hits: one dispatch per band and kind of ray, and the mapping to bodies and
+// What every pixel's first ray hits: one dispatch per portion and kind of ray, and the mapping to bodies and
 // pixels.
 #include "core/float_bits.h"
 #include "core/heap.h"
@@ -11,15 +11,15 @@
 #include <stdlib.h>
 
 enum {
-    BAND_TILES_MAX = 8192, // 32 MiB of output
+    PORTION_TILES_MAX = 8192, // 32 MiB of output
     TILES_A_PIECE = 256,
 };
 
 struct renderer_hits {
     struct gpu_buffer *output;
     struct gpu_program *program;
-    struct gpu_word *words; // the band's output, read back
-    uint32_t band_tiles;
+    struct gpu_word *words; // the portion's output, read back
+    uint32_t portion_tiles;
     uint64_t unfinished;
 };
 
@@ -28,8 +28,8 @@ static bool make(struct renderer *renderer) {
     if (!hits)
         return false;
     renderer->hits = hits;
-    hits->band_tiles = renderer->tiles < BAND_TILES_MAX ? renderer->tiles : BAND_TILES_MAX;
-    const size_t words = heap_times(heap_times(hits->band_tiles, TILE_PIXELS), HITS_WORDS);
+    hits->portion_tiles = renderer->tiles < PORTION_TILES_MAX ? renderer->tiles : PORTION_TILES_MAX;
+    const size_t words = heap_times(heap_times(hits->portion_tiles, TILE_PIXELS), HITS_WORDS);
     hits->words = heap_array(words, sizeof *hits->words);
     hits->output = gpu_buffer_create(renderer->gpu, GPU_STORAGE, words * sizeof *hits->words);
     const uint64_t own = FEATURE_SLICES | FEATURE_COUNTERS;
@@ -81,8 +81,8 @@ struct asking {
     const struct render_progress *progress;
 };
 
-static enum render_result draw_band(struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
-                                    const struct asking *asking) {
+static enum render_result draw_portion(struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
+                                       const struct asking *asking) {
     const uint32_t kinds = asking->kinds, slots = tile_count * TILE_PIXELS;
     const struct render_progress *progress = asking->progress;
     double offset_x, offset_y, seconds;
@@ -173,10 +173,10 @@ static enum render_result take(struct renderer *renderer, const struct view_came
         return RENDER_FAILED;
     struct renderer_hits *hits = renderer->hits;
     hits->unfinished = 0;
-    for (uint32_t begin = 0; begin < renderer->tiles; begin += hits->band_tiles) {
+    for (uint32_t begin = 0; begin < renderer->tiles; begin += hits->portion_tiles) {
         const uint32_t left = renderer->tiles - begin;
-        const uint32_t count = left < hits->band_tiles ? left : hits->band_tiles;
-        enum render_result result = draw_band(renderer, begin, count, asking);
+        const uint32_t count = left < hits->portion_tiles ? left : hits->portion_tiles;
+        enum render_result result = draw_portion(renderer, begin, count, asking);
         if (result != RENDER_DONE)
             return result;
         const uint64_t words = (uint64_t)count * TILE_PIXELS * HITS_WORDS;

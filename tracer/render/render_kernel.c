@@ -11,8 +11,8 @@
 #include <string.h>
 
 enum {
-    PATHS_APART = 8 << 20,    // with this many paths, the second kernel saves as much as making it takes
-    PATHS_FOLLOWED = 3 << 19, // on a GPU it saves, with this many paths, what the paths that go on alone take
+    PATHS_APART = 8 << 20, // from this many paths on, a second kernel saves more time than compiling it takes
+    PATHS_FOLLOWED = 3 << 19, // and on a GPU more than the further dispatch takes, for the paths that go on
 };
 
 struct kernel_pair {
@@ -21,7 +21,7 @@ struct kernel_pair {
 #define KERNEL(name)                                                                                         \
     { &kernel_##name##_texels, &kernel_##name##_storage }
 
-// The kernels of one method, whose name ends theirs.
+// The kernels of one method: their names end with its name.
 #define KERNELS(way)                                                                                         \
     {                                                                                                        \
         [RENDERER_TRACE] = KERNEL(trace##way), [RENDERER_HITS] = KERNEL(hits##way),                          \
@@ -40,7 +40,7 @@ static const struct kernel_pair fused_kernels[RENDERER_KERNELS] = KERNELS(_fused
 
 static const struct alternative {
     const char *name;
-    double offset, distance, cut; // scene units; of the way; squared scene units
+    double offset, distance, cut; // scene units; as a fraction of the ray's length; squared scene units
 } alternatives[RENDER_ALTERNATIVES] = {
     [RENDER_ALTERNATIVE_NONE] = {"none", 0, 0, 0},
     [RENDER_ALTERNATIVE_OFFSET_3] = {"offset 1e-3", 1e-3, 0, 0},
@@ -72,7 +72,9 @@ static const struct kernel_pair *pair_of(const struct renderer *renderer, enum r
     }
 }
 
-// The root has no siblings that could wait, and nodes without inner children leave nothing to come back from.
+// The most groups of nodes that wait at the same time, at least 1. A group holds the siblings of a node whose
+// children are visited first, so there is at most one per level: none of the root, which has no siblings, and
+// none of the last level, whose nodes have no inner children.
 static uint32_t stack_levels(uint32_t depth) {
     return depth > 3 ? depth - 2 : 1;
 }
@@ -113,7 +115,7 @@ static bool is_in_use(const struct renderer *renderer, const struct gpu_program 
            (program == renderer->program || program == renderer->counting || program == renderer->begins);
 }
 
-// The tracing kernel with these features, compiled now or before, over the band's buffers.
+// The tracing kernel with these features, compiled now or before, over the portion's buffers.
 static struct gpu_program *keep_program(struct renderer *renderer, uint64_t features) {
     for (uint32_t i = 0; i < RENDERER_KEPT; i++)
         if (is_for(&renderer->kept[i], renderer, features)) {
@@ -140,9 +142,10 @@ static struct gpu_program *keep_program(struct renderer *renderer, uint64_t feat
     return program;
 }
 
-// On a GPU the paths that go on alone after a pass take equally long however few they are. That pays if none
-// of them is a chain of rays and the pass is long. In double precision a ray is rarely open, and a second
-// search needs all available registers.
+// The paths that need what the first kernel lacks go on in a further dispatch. On a GPU that dispatch takes
+// equally long however few they are, so it pays only if paths are not chains of rays and the first dispatch
+// is long. In double precision it always pays: few rays are open, and the second search needs all available
+// registers.
 bool renderer_pays_apart(const struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
     const uint64_t paths = (uint64_t)settings->width * settings->height * settings->samples;
@@ -152,10 +155,10 @@ bool renderer_pays_apart(const struct renderer *renderer) {
            (gpu_fetches_texels(renderer->gpu) || renderer->flat->is_double || (!bounces && is_long));
 }
 
-// On lavapipe a kernel costs as much as all of its code, needed or not, and on a GPU as much as the most
-// registers that any part of it needs: so paths begin in a kernel that neither resumes saved paths nor
-// searches a second time, and paths that need this are saved. Counts would reveal this. A picture that is
-// made only once does not pay for compiling a second kernel, unless it is large.
+// On lavapipe all code of a kernel costs time, needed or not, and on a GPU the part that needs the most
+// registers decides. So paths begin in a kernel that neither resumes saved paths nor searches a second time;
+// those that need this are saved. Frames that count rays do without it: their counts would differ. Nor does
+// it pay to compile a second kernel for a picture that is made only once, unless it is large.
 bool renderer_begins_apart(const struct renderer *renderer) {
     const struct render_settings *settings = &renderer->settings;
     const bool pays = renderer->has_drawn ||

@@ -1,6 +1,6 @@
 // How much work a dispatch gets. Nothing can end a dispatch from outside, so none may take long: whoever
-// presses Ctrl-C waits for the running one. The cost of paths is learned from earlier ones. Bands take their
-// runs of tiles from all over the picture, so a few paths are representative.
+// presses Ctrl-C waits for the running one. The cost of paths is learned from earlier ones. Portions take
+// their runs of tiles from all over the picture, so a few paths are representative.
 #include "tracer/render/render_private.h"
 
 #include "core/clock.h"

@@ -96,7 +96,7 @@ struct renderer {
     uint32_t rank_begins[RENDERER_RANKS + 1]; // of that order: the first tile of each rank, and the end
     uint32_t tiles_x, tiles;                  // whole runs: some tiles may lie below the picture
     uint32_t run_tiles, runs, run_step;
-    uint32_t band_tiles; // in a band; the last one may have fewer
+    uint32_t portion_tiles; // in a portion; the last one may have fewer
     struct gpu_buffer *buffers[GPU_BINDINGS];
     uint32_t triangle_depth, sphere_depth; // levels that kernels have stacks for
     struct gpu_program *program;           // one of those kept; NULL: none was needed yet
@@ -105,7 +105,7 @@ struct renderer {
     bool has_drawn;                        // a frame with these settings
     struct renderer_kept kept[RENDERER_KEPT];
     uint32_t kept_next;         // which one is replaced next
-    uint32_t *band;             // the band's output, read back: 4 words per slot
+    uint32_t *portion;          // the portion's output, read back: 4 words per slot
     struct renderer_hits *hits; // made by the first renderer_hits
     struct renderer_log *log;   // made by the first renderer_log
     uint32_t pending[2];        // values of COUNTER_PENDING after the last dispatch, by list
@@ -131,7 +131,7 @@ bool renderer_make_background(struct renderer *renderer);
 void renderer_forget_kernels(struct renderer *renderer);
 
 // A kernel over the renderer's scene and trees, as its settings want it; `output` and `state` replace the
-// band's unless NULL.
+// portion's unless NULL.
 enum renderer_kernel {
     RENDERER_TRACE,
     RENDERER_HITS,
@@ -144,7 +144,7 @@ struct gpu_program *renderer_compile_kernel(struct renderer *renderer, enum rend
                                             struct gpu_buffer *state);
 // Whether the numbers of a group of nodes fit into one word.
 bool renderer_packs_groups(const struct flat_scene *flat);
-// The tracing kernel, compiled now or before, over the band's buffers. NULL: see gpu_error.
+// The tracing kernel, compiled now or before, over the portion's buffers. NULL: see gpu_error.
 struct gpu_program *renderer_program(struct renderer *renderer, bool counts);
 // Whether it pays to begin paths in a kernel with only what most of them need; and whether they do begin
 // there.
@@ -166,27 +166,27 @@ struct renderer_frame {
     uint32_t follow; // at most how many of them went on right after the last dispatch
     const struct render_progress *progress;
     struct render_statistics *statistics;
-    uint64_t steps_done, steps; // a band's sample is a step
+    uint64_t steps_done, steps; // a portion's sample is a step
     bool met_long_ray;          // the frame was given up: renderer_take_long_rays, and restart
     bool counting;
     uint32_t counters[COUNTER_COUNT]; // after the last dispatch; those in banks only if it counts
     uint64_t counts[COUNTER_KINDS];   // of all banks and dispatches
-    // NULL: all samples are made, band by band.
+    // NULL: all samples are made, portion by portion.
     const struct render_limit *limit;
     uint32_t samples_done; // under a limit: the number that all pixels have
     bool is_over;          // the limit ended the current sample
-    // Where samples are traced at once and the last ones of a band are under way: what follows each pass.
-    bool shows, shows_all; // the band's pixels go into the picture; and all pixels to this process
+    // Where samples are traced at once and the last ones of a portion are under way: what follows each pass.
+    bool shows, shows_all; // the portion's pixels go into the picture; and all pixels to this process
     struct dispatch_block resolve;
 };
-// One sample of one band: all its paths to their ends.
+// One sample of one portion: all its paths to their ends.
 enum render_result renderer_draw_sample(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
                                         uint32_t sample);
-// One sample of those pixels of a band whose slots are in the list: `listed` of them. `before`: how many
+// One sample of those pixels of a portion whose slots are in the list: `listed` of them. `before`: how many
 // samples the output holds, to which it is added; 0: it replaces the output.
 enum render_result renderer_draw_listed(struct renderer_frame *run, uint32_t tile_begin, uint32_t tile_count,
                                         uint32_t sample, uint32_t before, uint32_t listed);
-// Samples of a band, from `first` on: `count` of them at once, or one that is added to the output.
+// Samples of a portion, from `first` on: `count` of them at once, or one that is added to the output.
 enum render_result renderer_draw_paths(struct renderer_frame *run, struct dispatch_block *block);
 // Whether pixels end when their error is small enough.
 static inline bool renderer_is_adaptive(const struct renderer *renderer) {
@@ -214,16 +214,16 @@ bool renderer_sort_tiles(struct renderer *renderer, const struct view_camera *ca
 // Their buffers, where there are any, and the kernel that resolves them. false: see gpu_error.
 bool renderer_make_at_once(struct renderer *renderer);
 void renderer_drop_at_once(struct renderer *renderer);
-// A band's sums, as the kernel leaves them at its end: 4 words per slot, valid until the next dispatch. If
+// A portion's sums, as the kernel leaves them at its end: 4 words per slot, valid until the next dispatch. If
 // this process can read them in place they are not copied. NULL: see gpu_error.
 const uint32_t *renderer_sums(const struct renderer *renderer, uint32_t tile_count);
 // Copies these sums to their pixels of the picture. Returns whether some have faults.
 bool renderer_unpack(const struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
                      const uint32_t *sums, uint32_t samples, float *rgb);
-// Adds the faults of a band's sums to the statistics.
+// Adds the faults of a portion's sums to the statistics.
 void renderer_note_faults(const struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,
                           const uint32_t *sums, struct render_statistics *statistics);
-// The frame under its limit, sample by sample over all bands (render_until.c).
+// The frame under its limit, sample by sample over all portions (render_until.c).
 enum render_result renderer_draw_until(struct renderer_frame *run, const struct view_camera *camera,
                                        float *rgb);
 // Before the first sample: counts of steps, and the uniforms for a camera.
@@ -238,8 +238,8 @@ uint32_t renderer_most_waiting(const struct renderer *renderer, bool by_weight);
 uint32_t renderer_stack_levels(const struct renderer *renderer);
 // Switches to kernels that can save a ray in the middle of a tree. false: see gpu_error.
 bool renderer_take_long_rays(struct renderer *renderer);
-// The first path of a rank among a band's paths, in the order in which they begin; for RENDERER_RANKS: their
-// end.
+// The first path of a rank among a portion's paths, in the order in which they begin; for RENDERER_RANKS:
+// their end.
 uint32_t renderer_rank_begin(const struct renderer *renderer, const struct dispatch_block *block, int rank);
 // Runs paths from block->path_begin on and sets block->path_end and grid_width: at most to `end`, and no more
 // than should finish in a twentieth of a second, judging by earlier dispatches of this kind. Waits for them;

@@ -29,7 +29,7 @@ bool renderer_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32
                          x, y);
 }
 
-// Which pixel a slot of the band at `tile_begin` shows; false: none in the picture. For a band that the
+// Which pixel a slot of the portion at `tile_begin` shows; false: none in the picture. For a portion that the
 // tracing kernel has filled, and for others.
 static bool renderer_traced_pixel(const struct renderer *renderer, uint32_t tile_begin, uint32_t slot,
                                   uint32_t *x, uint32_t *y) {
@@ -75,7 +75,7 @@ const uint32_t *renderer_sums(const struct renderer *renderer, uint32_t tile_cou
     if (is_cpu && gpu_contents(output))
         return gpu_wait(renderer->gpu, NULL) ? gpu_contents(output) : NULL;
     const uint64_t bytes = (uint64_t)tile_count * TILE_PIXELS * sizeof(struct gpu_word);
-    return gpu_read(renderer->gpu, output, 0, renderer->band, bytes) ? renderer->band : NULL;
+    return gpu_read(renderer->gpu, output, 0, renderer->portion, bytes) ? renderer->portion : NULL;
 }
 
 bool renderer_unpack(const struct renderer *renderer, uint32_t tile_begin, uint32_t tile_count,

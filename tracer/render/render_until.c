@@ -1,5 +1,5 @@
 // A frame that may end before it has all its samples. All pixels must have equally many, and an abandoned
-// sample must leave no trace: sample by sample the sums of all bands are read back, and those of the last
+// sample must leave no trace: sample by sample the sums of all portions are read back, and those of the last
 // whole sample are kept beside those of the current one.
 #include "core/heap.h"
 #include "tracer/render/render_private.h"
@@ -8,21 +8,22 @@
 
 struct sums {
     uint32_t *whole, *next; // of all tiles, 4 words per slot: the last whole sample, and the current one
-    bool has_bands;         // more than one: the band's buffer serves them in turn
+    bool has_portions;      // more than one: the portion's buffer serves them in turn
 };
 
-static uint32_t tiles_of_band(const struct renderer *renderer, uint32_t begin) {
+static uint32_t tiles_of_portion(const struct renderer *renderer, uint32_t begin) {
     const uint32_t left = renderer->tiles - begin;
-    return left < renderer->band_tiles ? left : renderer->band_tiles;
+    return left < renderer->portion_tiles ? left : renderer->portion_tiles;
 }
 
-static enum render_result draw_band(struct renderer_frame *run, struct sums *sums, uint32_t begin) {
+static enum render_result draw_portion(struct renderer_frame *run, struct sums *sums, uint32_t begin) {
     struct renderer *renderer = run->renderer;
-    const uint32_t tiles = tiles_of_band(renderer, begin);
+    const uint32_t tiles = tiles_of_portion(renderer, begin);
     const uint64_t bytes = (uint64_t)tiles * TILE_PIXELS * sizeof(struct gpu_word);
     const size_t at = (size_t)4 * TILE_PIXELS * begin;
     struct gpu_buffer *output = renderer->buffers[BINDING_OUTPUT];
-    if (run->samples_done && sums->has_bands && !gpu_write(renderer->gpu, output, 0, sums->whole + at, bytes))
+    if (run->samples_done && sums->has_portions &&
+        !gpu_write(renderer->gpu, output, 0, sums->whole + at, bytes))
         return RENDER_FAILED;
     const enum render_result result = renderer_draw_sample(run, begin, tiles, run->samples_done);
     if (result != RENDER_DONE)
@@ -34,8 +35,8 @@ static enum render_result draw_band(struct renderer_frame *run, struct sums *sum
 static enum render_result draw_all(struct renderer_frame *run, struct sums *sums) {
     enum render_result result = RENDER_DONE;
     for (uint32_t begin = 0; result == RENDER_DONE && begin < run->renderer->tiles;
-         begin += run->renderer->band_tiles)
-        result = draw_band(run, sums, begin);
+         begin += run->renderer->portion_tiles)
+        result = draw_portion(run, sums, begin);
     if (result != RENDER_DONE)
         return result;
     uint32_t *whole = sums->next;
@@ -68,7 +69,7 @@ enum render_result renderer_draw_until(struct renderer_frame *run, const struct 
         return RENDER_FAILED;
     const size_t words = heap_times(heap_times(4, TILE_PIXELS), renderer->tiles);
     struct sums sums = {heap_array(words, sizeof(uint32_t)), heap_array(words, sizeof(uint32_t)),
-                        run->statistics->bands > 1};
+                        run->statistics->portions > 1};
     enum render_result result = sums.whole && sums.next ? draw_samples(run, &sums, rgb) : RENDER_FAILED;
     if (result == RENDER_DONE) {
         run->statistics->samples = run->samples_done;

@@ -1,5 +1,5 @@
 // How many refracted rays may wait in a path at the same time. If paths are long, these rays decide the
-// memory of a band's pixel, so the bound decides how many bands there are.
+// memory of a portion's pixel, so the bound decides how many portions there are.
 #include "grammar/ir.h"
 #include "tracer/render/render_private.h"
 

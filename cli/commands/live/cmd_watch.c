@@ -14,7 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// A file that an editor writes is taken as whole when nothing has changed for this time.
+// A file that an editor writes counts as complete when it has not changed for this long.
 #define QUIET_SECONDS 0.01
 // How often files are checked while a picture is made, to see whether its scene is already old.
 #define LOOK_SECONDS 0.1

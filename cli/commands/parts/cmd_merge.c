@@ -202,7 +202,7 @@ static int judge_patterns(struct cli *cli, char **patterns) {
     return status;
 }
 
-// The operands become these names, at the places on the command line that the patterns have.
+// Puts the names in the place of the patterns, which are the operands, on the command line too.
 static void take_names(struct cli *cli, char **argv, char **patterns, char **names) {
     for (int i = 0; i < cli->argc; i++)
         for (int k = 0; k < cli->operand_count; k++)

@@ -310,7 +310,7 @@ static bool is_worth_it(const struct row *rows, uint32_t count, uint32_t index, 
     return !isnan(error_of(row, metric));
 }
 
-// Both set the number of samples.
+// Whether two knobs count as one: both `samples` and `error` set the number of samples.
 static bool are_one(uint32_t a, uint32_t b) {
     const uint32_t samples = 1u << KNOB_SAMPLES | 1u << KNOB_ERROR;
     return a == b || (1u << a & samples && 1u << b & samples);

@@ -18,21 +18,22 @@ enum {
 };
 // Rays of the reference that take about half a second, whatever the picture.
 static const double TRUTH_RAYS = 6e5;
-// Rays lighter by this factor are followed, one step deeper.
+// Each time that paths are made longer, rays lighter by this factor are followed too.
 static const double DEEPER_WEIGHT = 3;
 // Errors fall by about this power of the samples: those of edges by about 0.75, of the rest by 0.5.
 static const double FALLS_LEAST = 0.4, FALLS = 0.5, FALLS_MOST = 0.75;
 // Four times the samples make errors about half as large. If they fall by no more than this power, something
 // else is wrong.
 static const double STAGNATES = 0.15;
-// Factor on the predicted samples, and the least factor from one row to the next.
+// A row has AIM times the samples that are predicted to keep the bound, but at least STEP_LEAST times those
+// of the row before it.
 static const double AIM = 1.06, STEP_LEAST = 1.15;
-// Shares of the bound that may remain however many samples there are. The less remains, the fewer samples the
-// rest takes: at most 0.6 is aimed at, and with more than 0.9 too many would be needed.
+// Shares of the bound that an error which no samples remove may take up. The less it takes up, the fewer
+// samples keep the bound: at most 0.6 is aimed at, and with more than 0.9 too many samples would be needed.
 static const double FLOOR_AIM = 0.6, FLOOR_SHARE = 0.9;
-// Share of the bound: how much more may remain if less is traced.
+// How much more error may remain if less is traced, as a share of the bound.
 static const double LOWER_SHARE = 0.1;
-// Share of the remaining time, for the next try.
+// After a row that took too long, the next one has this share of the samples that would fit at its pace.
 static const double TIME_SHARE = 0.97;
 
 // Up to so many samples may all have missed what is small and bright.
@@ -209,8 +210,9 @@ static bool is_in_reach(struct searching *s, struct setting *at) {
     return true;
 }
 
-// How much error may remain if less is traced, as amount_of: what remains now plus a part of the bound, or
-// what a sample leaves of it.
+// How much error may remain if less is traced, as an amount of amount_of. To what remains with this setting
+// it adds a share of the bound, or what the error of a single sample leaves of the bound if that is more. 0:
+// a row must be measured first.
 static double allowance(struct searching *s, const struct setting *at) {
     struct setting one = probe_of(at);
     const struct row *probe = ask(s, &one);

@@ -56,7 +56,7 @@ static void put_errors(const struct row *row, struct json_writer *json) {
     }
     if (row->hits.known) {
         json_open_object(json, "hits_per_million");
-        json_write_real(json, "band", row->hits.band);
+        json_write_real(json, "band", row->hits.silhouette);
         json_write_real(json, "wrong_inside", row->hits.wrong_inside);
         json_write_real(json, "wrong_outside", row->hits.wrong_outside);
         json_write_real(json, "acne", row->hits.acne);

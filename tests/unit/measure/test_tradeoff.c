@@ -229,9 +229,9 @@ static void test_hits(void **state) {
     memcpy(device, reference, sizeof device);
     hits_compare(SIDE, SIDE, device, reference, &scene, &errors);
     assert_true(errors.known);
-    near(errors.band, 20 * one); // the two columns at the border of the bodies
+    near(errors.silhouette, 20 * one); // the two columns at the border of the bodies
     assert_true(errors.wrong_inside + errors.wrong_outside + errors.acne + errors.leaks == 0);
-    device[4].body = 1;                // in the band
+    device[4].body = 1;                // at silhouettes
     device[11].triangle = 8;           // elsewhere
     device[12].body = HIT_NONE;        // a hole, and wrong
     device[18].body = HIT_NONE;        // the same through an open body
@@ -240,10 +240,10 @@ static void test_hits(void **state) {
     device[52].lit = 1;                // at the shadow's edge
     device[22].reflected = 5;          // another second body
     device[81].considered = 0;         // not lit by anything: neither acne nor leak
-    device[24].reflected = 5;          // in the band: silhouettes only
+    device[24].reflected = 5;          // at silhouettes, where it does not count
     reference[82].distance = 3 * 1.04; // a slope, no silhouette
     hits_compare(SIDE, SIDE, device, reference, &scene, &errors);
-    near(errors.band, 20 * one);
+    near(errors.silhouette, 20 * one);
     near(errors.wrong_inside, one);
     near(errors.wrong_outside, 3 * one);
     near(errors.holes, one);
@@ -253,7 +253,7 @@ static void test_hits(void **state) {
     near(errors.wrong_second, one);
     reference[82].distance = 4; // a step: the pixel and its eight neighbours
     hits_compare(SIDE, SIDE, device, reference, &scene, &errors);
-    near(errors.band, 29 * one);
+    near(errors.silhouette, 29 * one);
 }
 
 // The halves of a parallelogram are one face, the triangles of a mesh are not.

@@ -112,8 +112,8 @@ static void test_behind(void **state) {
     close_stage(&s);
 }
 
-// A band holds a part of each rank.
-static void test_bands(void **state) {
+// A portion holds a part of each rank.
+static void test_portions(void **state) {
     (void)state;
     struct renderer renderer = {.rank_begins = {0, 30, 50, TILES}};
     const struct dispatch_block all = {.tile_count = TILES, .samples = 2};
@@ -129,7 +129,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ranks),
         cmocka_unit_test(test_behind),
-        cmocka_unit_test(test_bands),
+        cmocka_unit_test(test_portions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
