@@ -249,6 +249,12 @@ static void check_refraction(struct loader *loader, const struct ir_model *model
              "the mesh '%.*s' is open and its material refracts: it will look like a thin pane",
              STR_ARG(loaded->name));
     if (loaded->made) {
+        if (loaded->made->kind == IR_MESH_FACES)
+            diag_note(sink,
+                      ir_place_label(loader->input->origin,
+                                     &loaded->made->faces.faces.items[mesh->open_line - 1].head),
+                      "%u edge%s to only one face, the first to this face", mesh->open_edges,
+                      mesh->open_edges == 1 ? " belongs" : "s belong");
         diag_help(sink, "close the mesh, or set the material's refraction to 0");
         return;
     }

@@ -4,6 +4,7 @@
 #include "assets/made/made.h"
 #include "assets/mesh_build.h"
 #include "assets/mesh_coordinates.h"
+#include "assets/mesh_losses.h"
 #include "core/clock.h"
 #include "core/hash128.h"
 #include "core/timeline.h"
@@ -211,6 +212,46 @@ static void report_fault(const struct making *m) {
         diag_note(input->sink, place_of_entry(m, fault->outlines[1], fault->points[1]), "with this");
 }
 
+// ---- what is notable
+
+// A quadrilateral can be cut along either of its diagonals.
+static void help_cut(const struct making *m, const struct ir_face *face) {
+    struct diag_sink *sink = m->loader->input->sink;
+    const struct ir_corner *c = face->corners.items;
+    if (face->corners.count != 4) {
+        diag_help(sink, "glint draws triangles: write the face as triangles to choose where it bends");
+        return;
+    }
+    diag_help(
+        sink,
+        "glint draws triangles: write two faces, of the vertices %d, %d, %d and %d, %d, %d, or of %d, %d, "
+        "%d and %d, %d, %d, to choose where it bends",
+        c[0].vertex, c[1].vertex, c[2].vertex, c[0].vertex, c[2].vertex, c[3].vertex, c[0].vertex,
+        c[1].vertex, c[3].vertex, c[1].vertex, c[2].vertex, c[3].vertex);
+}
+
+// The same that is reported of mesh files, at faces of the scene. The other kinds of meshes are flat and
+// outward as they are made.
+static void report_faces(const struct making *m) {
+    const struct mesh *mesh = m->loaded->mesh;
+    const struct ir_faces *faces = &m->ir->faces;
+    struct diag_sink *sink = m->loader->input->sink;
+    if (mesh->turned)
+        diag_add(sink, DIAG_MESH_TURNED, label(m, faces),
+                 "the faces of this closed mesh point inwards and were turned outwards");
+    if (mesh->bent_line == 0)
+        return;
+    const struct ir_face *face = &faces->faces.items[mesh->bent_line - 1];
+    const uint32_t others = mesh->losses[MESH_LOSS_BENT].count - 1;
+    diag_add(sink, mesh_losses_bend(mesh), label(m, face),
+             "this face is not flat: a corner is off its plane by %.2g %% of the face's size",
+             100 * mesh->bent_most);
+    if (others)
+        diag_note(sink, SPAN_NONE, "%u other face%s of the mesh %s not flat either", others,
+                  others == 1 ? "" : "s", others == 1 ? "is" : "are");
+    help_cut(m, face);
+}
+
 // ---- which
 
 // Whether nothing in the element was reported.
@@ -296,6 +337,8 @@ static void load(struct making *m) {
             arena_finish(&entry->mesh.arena);
     }
     m->loaded->mesh = m->loaded->own = entry->is_whole ? &entry->mesh : NULL;
+    if (m->loaded->mesh && m->ir->kind == IR_MESH_FACES)
+        report_faces(m);
 }
 
 bool loader_names_file(const struct ir_model *model) {

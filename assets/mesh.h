@@ -44,8 +44,9 @@ struct mesh {
     uint32_t face_count; // polygons in the file, before triangulation
     uint32_t zero_area;  // triangles without area; kept here, dropped by flattening
     struct mesh_loss_count losses[MESH_LOSS_COUNT];
-    double bent_most;  // greatest distance of a corner from its face's plane, as a share of the face's size
-    vec3 lower, upper; // bounds of the positions
+    double bent_most;   // greatest distance of a corner from its face's plane, as a share of the face's size
+    uint32_t bent_line; // the face of that corner; 0: none
+    vec3 lower, upper;  // bounds of the positions
 };
 
 // The word for what mesh_triangle.line counts.

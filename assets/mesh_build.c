@@ -117,7 +117,10 @@ static void measure_bend(struct mesh *mesh, const vec3 *corners, uint32_t n, uin
     if (bend <= BEND_SEEN)
         return;
     mesh_lose(mesh->losses, MESH_LOSS_BENT, line);
-    mesh->bent_most = fmax(mesh->bent_most, bend);
+    if (bend > mesh->bent_most) {
+        mesh->bent_most = bend;
+        mesh->bent_line = line;
+    }
 }
 
 static void count_lost_normals(const struct polygons *polygons, const struct polygon_face *face,

@@ -38,12 +38,15 @@ static void report_parts(struct asset_file *file, const struct mesh *mesh) {
                           "their materials");
 }
 
+diag_code mesh_losses_bend(const struct mesh *mesh) {
+    return mesh->bent_most > BEND_PLAIN ? DIAG_MESH_BENT : DIAG_MESH_CURVED;
+}
+
 void mesh_losses_report(struct asset_file *file, const struct mesh *mesh) {
     report_parts(file, mesh);
     const struct mesh_loss_count *bent = &mesh->losses[MESH_LOSS_BENT];
-    diag_code code = mesh->bent_most > BEND_PLAIN ? DIAG_MESH_BENT : DIAG_MESH_CURVED;
     if (bent->count &&
-        asset_report_line(file, code, bent->line,
+        asset_report_line(file, mesh_losses_bend(mesh), bent->line,
                           "%u of the mesh's %u faces %s not flat: corners are off the plane by up to "
                           "%.2g %% of the face's size",
                           bent->count, mesh->face_count, bent->count == 1 ? "is" : "are",

@@ -9,6 +9,8 @@
 #include "assets/mesh.h"
 
 void mesh_losses_report(struct asset_file *file, const struct mesh *mesh);
+// The code for a mesh whose faces are not all flat.
+diag_code mesh_losses_bend(const struct mesh *mesh);
 // For a mesh that a smooth model shows: its normals without a direction.
 void mesh_losses_report_normals(struct asset_file *file, const struct mesh *mesh);
 

@@ -102,7 +102,9 @@ str lint_material_words(struct lint *lint, const struct ir_material *material);
 bool lint_is_written(const struct ir_head *head, const struct schema_element *schema, const char *row);
 span lint_place(const struct lint *lint, const struct lint_body *body);
 span lint_place_mesh(const struct lint *lint, const struct lint_body *body);
-// A note at a line of a mesh file.
+// The faces of a mesh that the scene describes by them; NULL: another mesh.
+const struct ir_faces *lint_faces(const struct lint *lint, const struct lint_mesh *mesh);
+// A note at a line of a mesh file, or at the face of that number where the scene has it.
 void lint_note_mesh(struct lint *lint, struct lint_mesh *mesh, uint32_t line, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 // Adds a fix, not a safe one, to the last finding: another value for an element's row. A row that the file

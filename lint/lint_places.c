@@ -54,14 +54,25 @@ static uint32_t known_source(const struct source_set *sources, str path) {
     return SOURCE_DEFAULT;
 }
 
+const struct ir_faces *lint_faces(const struct lint *lint, const struct lint_mesh *mesh) {
+    const struct scene_body *body = mesh->first->is;
+    if (!mesh->mesh->is_made || body->element != &SCHEMA_MODEL)
+        return NULL;
+    const struct ir_mesh *ir = &lint->ir->meshes.items[lint->ir->models.items[body->index].mesh.index];
+    return ir->kind == IR_MESH_FACES ? &ir->faces : NULL;
+}
+
 void lint_note_mesh(struct lint *lint, struct lint_mesh *mesh, uint32_t line, const char *format, ...) {
     char text[NOTE_MAX];
     va_list args;
-    if (mesh->mesh->is_made)
-        return;
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
+    const struct ir_faces *faces = lint_faces(lint, mesh);
+    if (faces)
+        diag_note(lint->sink, ir_place_label(lint->origin, &faces->faces.items[line - 1].head), "%s", text);
+    if (mesh->mesh->is_made)
+        return;
     const struct assets_input *input = lint->input->files;
     if (mesh->source == SOURCE_DEFAULT)
         mesh->source = known_source(input->sources, mesh->mesh->path);

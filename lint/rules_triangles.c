@@ -24,7 +24,8 @@ static void check_area(struct lint *lint, struct lint_mesh *mesh) {
              "%u of the mesh's %u triangles %s no area%.*s", n, mesh->mesh->triangle_count,
              n == 1 ? "has" : "have", STR_ARG(others(lint, mesh)));
     lint_note_mesh(lint, mesh, line, n == 1 ? "in this face" : "the first is in this face");
-    diag_help(lint->sink, "remove them in a modelling program; they are not drawn");
+    diag_help(lint->sink, "remove them%s; they are not drawn",
+              mesh->mesh->is_made ? "" : " in a modelling program");
 }
 
 void lint_zero_area(struct lint *lint) {
@@ -116,7 +117,8 @@ void lint_duplicates(struct lint *lint) {
         lint_note_mesh(lint, mesh, twins.line, "%s in this face",
                        twins.count == 1 ? "it is" : "the first is");
         lint_note_mesh(lint, mesh, twins.of_line, "which repeats this one");
-        diag_help(lint->sink, "remove the repeated faces in a modelling program");
+        diag_help(lint->sink, "remove the repeated faces%s",
+                  mesh->mesh->is_made ? "" : " in a modelling program");
     }
 }
 

@@ -18,7 +18,7 @@
 struct ir_image;
 
 // Increased whenever what the reference computes changes: cached pictures of other versions are not used.
-#define REFERENCE_VERSION 11
+#define REFERENCE_VERSION 12
 
 // How far paths are followed where the file's own limits do not apply.
 #define REFERENCE_MIN_WEIGHT 1e-6

@@ -258,12 +258,12 @@ static double side_from(const struct cone_line *line, double t, double inside) {
     return t;
 }
 
-// The line between the planes, within *t; false: it is not there.
+// The line between the planes, no farther than `reach`, within *t; false: it is not there.
 static bool between_discs(double height, double y, double dy, double reach, double t[2]) {
     const double ends[2] = {-y / dy, (height - y) / dy};
-    t[0] = dy != 0 ? fmin(ends[0], ends[1]) : -reach;
-    t[1] = dy != 0 ? fmax(ends[0], ends[1]) : reach;
-    return dy != 0 || (y >= 0 && y <= height);
+    t[0] = dy != 0 ? fmax(fmin(ends[0], ends[1]), -reach) : -reach;
+    t[1] = dy != 0 ? fmin(fmax(ends[0], ends[1]), reach) : reach;
+    return dy != 0 ? t[0] <= t[1] : y >= 0 && y <= height;
 }
 
 bool shape_cone_crossing(const struct shape_cone *cone, vec3 point, vec3 direction, double t[2],
@@ -278,8 +278,10 @@ bool shape_cone_crossing(const struct shape_cone *cone, vec3 point, vec3 directi
     const struct cone_line line = {vec3_sub(p, vec3_mul(cone->axis, y)),
                                    vec3_sub(direction, vec3_mul(cone->axis, dy)), cone->radius + slope * y,
                                    slope * dy};
-    // Farther away a line at right angles to the axis is outside.
-    const double reach = 2 * (vec3_length(line.across) + fmax(cone->radius, cone->radius_to)) / sqrt(d2);
+    // Farther away the line is outside. Between the planes alone one that is nearly at right angles to the
+    // axis may be so long that one step of Newton's method is rounded by more than the radius.
+    const double reach =
+        2 * (vec3_length(line.across) + fmax(cone->radius, cone->radius_to)) / vec3_length(line.direction);
     if (!between_discs(cone->height, y, dy, reach, t))
         return false;
     const double a = vec3_dot(line.direction, line.direction) - line.growth * line.growth;

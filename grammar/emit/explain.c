@@ -400,13 +400,34 @@ static bool explain_other_word(struct explainer *e, str what, bool *known) {
     return false;
 }
 
+// After an attribute: what else other programs call so.
+static void put_other_meanings(struct explainer *e, str what) {
+    struct strbuf text;
+    strbuf_init(&text);
+    for (const struct schema_element *const *s = schema_elements; *s; s++) {
+        const int row = schema_find_also(*s, what);
+        if (row >= 0)
+            strbuf_format(&text, "%s'%s.%s'",
+                          text.len ? ", " : "Other programs use this word for what is here ", (*s)->name,
+                          (*s)->rows[row].name);
+    }
+    if (text.len) {
+        strbuf_char(&text, '.');
+        strbuf_char(e->out, '\n');
+        paragraph_of(e, 2, &text);
+    }
+    strbuf_finish(&text);
+}
+
 // An attribute without its element: explained if only one element has it, else the elements are listed.
 static bool explain_alone(struct explainer *e, str what, bool *known) {
     int row = -1;
     const struct schema_element *only = find_alone(what, &row);
     *known = only || row >= 0;
-    if (only)
+    if (only) {
         explain_attribute(e, only, (uint32_t)row);
+        put_other_meanings(e, what);
+    }
     if (only || row < 0)
         return only || explain_concept(e, what) || explain_other_word(e, what, known);
     strbuf_format(e->out, "several elements have '%.*s'; say which: ", STR_ARG(what));

@@ -152,6 +152,8 @@ expect "explain lists no such code" 2 - "there is no code 'X1'" "$glint" explain
 expect "explain needs a word" 2 - "'glint explain --list' lists the codes" "$glint" explain
 expect "explain an attribute" 0 'refraction' - "$glint" explain material.albedo
 expect "explain in another style" 0 '^camera.look_at' - "$glint" explain LookAt
+expect "explain what other programs mean too" 0 "use this word for what is here 'scene.cylinder'" - "$glint" explain tube
+expect "explain a shape that is made of another" 0 'pipe: .lathe: .profile' - "$glint" explain pipes
 expect "explain a path of --set" 0 '^material.albedo' - "$glint" explain materials.glass.albedo.refraction
 expect "explain what others say" 0 '^material.refractive_index' - "$glint" explain ior
 expect "explain which of several" 2 - "say which: 'camera.position' or 'light.position'" "$glint" explain position

@@ -239,4 +239,18 @@ expect "as a list" 0 'center: .1, 0, 2.' - cat vectors.yaml
 expect "an index after a point" 1 - 'help: write spheres.0.$' "$glint" check vectors.yaml --set spheres.0.radius=2
 expect "a name after a point" 1 - 'help: for example spheres.0. or spheres.ball.$' "$glint" check vectors.yaml --set spheres.ball.radius=2
 
+# Corners in the opposite order: each as it is written, with the comments between them.
+cp "$source"/tests/invalid/w414_yaml_order/case.yaml order.yaml
+expect "faces in the wrong order" 0 - 'order.yaml: 3 fixes made' "$glint" check --fix=all order.yaml
+expect "in brackets" 0 '^        - .4, 3, 5.$' - cat order.yaml
+expect "with words" 0 '^        - corners: .{vertex: 1}, {vertex: 4}, {vertex: 5}, {vertex: 2}.$' - cat order.yaml
+expect "where a comment stays" 0 '^          - 2 # away from the eaves$' - cat order.yaml
+expect "are in order" 0 - - "$glint" check --fail-on warning order.yaml
+cp "$source"/tests/invalid/w414_xml_order/case.xml order.xml
+expect "and in XML" 0 - 'order.xml: 1 fix made' "$glint" check --fix=all order.xml
+expect "with the comment" 0 '^          <Corner vertex="0"/> <!-- at the edge -->$' - cat order.xml
+expect "too" 0 - - "$glint" check --fail-on warning order.xml
+printf 'glint: 1\nlights: [{position: [0, 0, 9]}]\nmodels:\n  - mesh:\n      faces:\n        vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]\n        faces: [[0, &b 1, &c 2], [3, *b, *c]]\n' >order.yaml
+expect "a corner that stands for another place" 0 - 'W414' "$glint" check --fix=all order.yaml
+expect "is left" 0 'faces: ..0, &b 1, &c 2., .3, .b, .c..$' - cat order.yaml
 exit $failed

@@ -73,6 +73,7 @@ void stage_open(struct stage *stage, const char *glint, const char *shim, const 
     add(stage, "tests/data/image/progressive.jpg", "more/progressive.jpg");
     add(stage, "tests/fuzz/seeds/image/runs.hdr", "more/runs.hdr");
     add(stage, "tests/fuzz/seeds/image/half.exr", "more/half.exr");
+    add(stage, "scenes/elements/letters.ttf", "more/letters.ttf");
     add(stage, "tests/golden/minimal.png", "a.png");
     add(stage, "tests/golden/spheres.png", "b.png");
     write_session(stage);

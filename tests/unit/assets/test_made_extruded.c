@@ -91,6 +91,15 @@ static double outline_area(const struct made_outline *outline) {
     return fabs(sum);
 }
 
+static double perimeter(const struct made_outline *outline) {
+    double sum = 0;
+    for (uint32_t i = 0; i < outline->count; i++) {
+        const struct ir_pair a = outline->points[i], b = outline->points[(i + 1) % outline->count];
+        sum += hypot(b.u - a.u, b.v - a.v);
+    }
+    return sum;
+}
+
 static void assert_near(double value, double expected, double share) {
     if (!(fabs(value - expected) <= share * fabs(expected)))
         fail_msg("%.17g, expected %.17g within %g", value, expected, share);
@@ -110,7 +119,7 @@ static void test_box(void **state) {
     assert_true(kit.mesh.volume == 12 && kit.mesh.triangle_count == 12);
 }
 
-// The volume of a box with all edges of both ends cut: that of its slices.
+// Volume and area of a box with all edges of both ends cut: those of its slices, and of its faces.
 static void test_bevel(void **state) {
     (void)state;
     begin();
@@ -134,6 +143,10 @@ static void test_bevel(void **state) {
         const double outer = 12 * 2 - 2 * (14 * b * b / 2 - 4 * b * b * b / 3);
         const double inner = 1 * 2 + 2 * (4 * b * b / 2 + 4 * b * b * b / 3);
         assert_near(kit.mesh.volume, outer - inner, 1e-12);
+        // Both ends, the four strips at 45 degrees around each, and the sides between them.
+        const double ends = (4 - 2 * b) * (3 - 2 * b) - (1 + 2 * b) * (1 + 2 * b);
+        const double strips = sqrt(2) * b * ((14 - 4 * b) + (4 + 4 * b)), sides = (2 - 2 * b) * (14 + 4);
+        assert_near(made_kit_surface(&kit.mesh), 2 * ends + 2 * strips + sides, 1e-12);
         assert_true(made_kit_worst_normal(&kit.mesh) > 1 - 1e-12);
     }
     struct made_extrude extrude = all();
@@ -152,7 +165,7 @@ static void test_random_outlines(void **state) {
     for (int i = 0; i < 2000; i++) {
         begin();
         const uint32_t count = 3 + (uint32_t)(random_bits(&random) % 40);
-        double area = 0;
+        double area = 0, around = 0;
         for (int k = 0; k < 1 + i % 4; k++) {
             add_star(&random, 5 * k, k % 2, 1.2, 2.4, count + 4);
             add_star(&random, 5 * k + 0.02, k % 2, 0.3, 0.6, count + 2);
@@ -160,9 +173,12 @@ static void test_random_outlines(void **state) {
             for (int o = 0; o < 3; o++)
                 area += (o == 1 ? -1 : 1) * outline_area(&outlines[outline_count - 3 + (uint32_t)o]);
         }
+        for (uint32_t o = 0; o < outline_count; o++)
+            around += perimeter(&outlines[o]);
         struct made_extrude extrude = all();
         made_kit_closed(&kit, made_kit_extrude(&kit, extrude));
         assert_near(kit.mesh.volume, 2 * area, 1e-12);
+        assert_near(made_kit_surface(&kit.mesh), 2 * area + 2 * around, 1e-12);
         for (int k = 0; k < 20; k++) {
             const struct ir_pair p = {8 * random_unit(&random) - 2, 4 * random_unit(&random) - 2};
             assert_int_equal(cover(p, 2), is_inside(p));

@@ -151,6 +151,82 @@ static void test_torus(void **state) {
     assert_near(kit.mesh.volume, 2 * PI * PI, 4e-3);
 }
 
+// Of tori from thin to without a hole: what the tolerance leaves out of area and volume, to first order. A
+// chord that is at most `share` of the radius inside a circle is shorter than its arc by share / 3, and a
+// polygon of such chords smaller than the circle by 4 / 3 of it; faces between two circles are also less
+// steep by up to the share around the axis, where they slope, which is half of it in the mean.
+static void test_torus_measures(void **state) {
+    (void)state;
+    double worst = 0;
+    for (double tube = 0.01; tube <= 1; tube *= 1.7782794100389228)
+        for (double tolerance = 1e-2; tolerance > 1e-5; tolerance /= 10) {
+            made_kit_closed(&kit, made_kit_torus(&kit, (struct made_torus){1, tube, tolerance}));
+            const double around = tolerance / 2, share = around + tolerance / 2 * (1 + tube) / tube;
+            const double area = made_kit_surface(&kit.mesh) / (4 * PI * PI * tube) - 1;
+            const double volume = kit.mesh.volume / (2 * PI * PI * tube * tube) - 1;
+            if (!(area <= 0 && area >= -share / 3 - around / 2 && volume <= 0 && volume >= -4 * share / 3))
+                fail_msg("tube %g, tolerance %g: area off by %g, volume by %g, share %g", tube, tolerance,
+                         area, volume, share);
+            worst = fmin(worst, tolerance > 5e-4 && tolerance < 5e-3 ? area : 0);
+        }
+    printf("torus: area off by %.3g at most with the default tolerance\n", worst);
+}
+
+// At each corner that of the true surface there, whatever the facets.
+static void test_torus_normals(void **state) {
+    (void)state;
+    for (double tube = 0.02; tube <= 2; tube *= 10)
+        for (double tolerance = 1e-1; tolerance > 1e-4; tolerance /= 10) {
+            made_kit_closed(&kit, made_kit_torus(&kit, (struct made_torus){2, tube, tolerance}));
+            double worst = 0;
+            for (uint32_t t = 0; t < kit.mesh.triangle_count; t++)
+                for (int k = 0; k < 3; k++) {
+                    const vec3 at = made_kit_corner(&kit.mesh, t, k);
+                    const double away = hypot(at.x, at.z), part = (away - 2) / tube;
+                    const vec3 normal = {at.x / away * part, at.y / tube, at.z / away * part};
+                    if (away > 1e-6) // on the axis a torus without a hole has two
+                        worst = fmax(worst, vec3_length(vec3_sub(
+                                                kit.mesh.normals[kit.mesh.triangles[t].normals[k]], normal)));
+                }
+            if (!(worst < 1e-13))
+                fail_msg("tube %g, tolerance %g: a normal is off by %g", tube, tolerance, worst);
+        }
+}
+
+// A frustum of so many sides: facets and all in closed form, and as near to the round one as its tolerance
+// says.
+static void test_frustum(void **state) {
+    (void)state;
+    const double low = 1.5, high = 0.6, height = 2, slant = hypot(height, low - high);
+    const struct ir_pair points[] = {{0, -1}, {low, -1}, {high, -1 + height}, {0, -1 + height}};
+    const double round_area = PI * (low * low + high * high + (low + high) * slant);
+    const double round_volume = PI / 3 * height * (low * low + low * high + high * high);
+    for (double tolerance = 1e-1; tolerance > 1e-6; tolerance /= 10) {
+        struct made_lathe lathe = lathe_of(points, 4);
+        lathe.tolerance = tolerance;
+        made_kit_closed(&kit, made_kit_lathe(&kit, lathe));
+        const double sides = kit.mesh.triangle_count / 4, half = PI / sides;
+        assert_int_equal(kit.mesh.triangle_count % 4, 0); // two of the side and one of each end
+        const double sector = sin(half) * cos(half), pitch = hypot(height, (low - high) * cos(half));
+        const double area = sides * (sector * (low * low + high * high) + sin(half) * (low + high) * pitch);
+        assert_near(made_kit_surface(&kit.mesh), area, 1e-13);
+        assert_near(kit.mesh.volume, sides * sector * round_volume / PI, 1e-13);
+        assert_near(area, round_area, 4 * tolerance / 3);
+        assert_near(kit.mesh.volume, round_volume, 4 * tolerance / 3);
+        for (uint32_t t = 0; t < kit.mesh.triangle_count; t++)
+            for (int k = 0; k < 3; k++) {
+                const vec3 at = made_kit_corner(&kit.mesh, t, k), face = made_kit_area(&kit.mesh, t),
+                           normal = kit.mesh.normals[kit.mesh.triangles[t].normals[k]];
+                const double away = hypot(at.x, at.z), ring = height / slant;
+                const bool is_end = face.x == 0 && face.z == 0;
+                const vec3 expected =
+                    is_end ? (vec3){0, at.y < 0 ? -1 : 1, 0}
+                           : (vec3){ring * at.x / away, (low - high) / slant, ring * at.z / away};
+                assert_true(vec3_length(vec3_sub(normal, expected)) < 1e-14);
+            }
+    }
+}
+
 // A curve through points of a circle: poles are round and on the axis.
 static void test_smooth(void **state) {
     (void)state;
@@ -269,11 +345,12 @@ static int finish(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cone),   cmocka_unit_test(test_open),
-        cmocka_unit_test(test_torus),  cmocka_unit_test(test_touches_axis_within),
-        cmocka_unit_test(test_smooth), cmocka_unit_test(test_random_profiles),
-        cmocka_unit_test(test_faults), cmocka_unit_test(test_faces),
-        cmocka_unit_test(test_speed),
+        cmocka_unit_test(test_cone),          cmocka_unit_test(test_open),
+        cmocka_unit_test(test_torus),         cmocka_unit_test(test_touches_axis_within),
+        cmocka_unit_test(test_smooth),        cmocka_unit_test(test_random_profiles),
+        cmocka_unit_test(test_faults),        cmocka_unit_test(test_faces),
+        cmocka_unit_test(test_speed),         cmocka_unit_test(test_torus_measures),
+        cmocka_unit_test(test_torus_normals), cmocka_unit_test(test_frustum),
     };
     return cmocka_run_group_tests(tests, NULL, finish);
 }

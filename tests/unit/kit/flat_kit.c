@@ -15,6 +15,7 @@ void kit_init(struct kit *kit) {
     kit->scene.materials.items = ARENA_ARRAY(&kit->arena, struct ir_material, KIT_MAX);
     kit->scene.spheres.items = ARENA_ARRAY(&kit->arena, struct ir_sphere, KIT_MAX);
     kit->scene.rectangles.items = ARENA_ARRAY(&kit->arena, struct ir_rectangle, KIT_MAX);
+    kit->scene.boxes.items = ARENA_ARRAY(&kit->arena, struct ir_box, KIT_MAX);
     kit->scene.cylinders.items = ARENA_ARRAY(&kit->arena, struct ir_cylinder, KIT_MAX);
     kit->scene.cones.items = ARENA_ARRAY(&kit->arena, struct ir_cone, KIT_MAX);
     kit->scene.models.items = ARENA_ARRAY(&kit->arena, struct ir_model, KIT_MAX);
@@ -51,6 +52,14 @@ struct ir_rectangle *kit_rectangle(struct kit *kit) {
     rectangle->edge_v = (vec3){0, 1, 0};
     rectangle->material.index = IR_NO_INDEX;
     return rectangle;
+}
+
+struct ir_box *kit_box(struct kit *kit) {
+    struct ir_box *box = &kit->scene.boxes.items[kit->scene.boxes.count++];
+    schema_init(&SCHEMA_BOX, box);
+    box->size = (vec3){1, 1, 1};
+    box->material.index = IR_NO_INDEX;
+    return box;
 }
 
 struct ir_cylinder *kit_cylinder(struct kit *kit) {

@@ -31,6 +31,7 @@ void kit_finish(struct kit *kit);
 struct ir_material *kit_material(struct kit *kit);
 struct ir_sphere *kit_sphere(struct kit *kit);
 struct ir_rectangle *kit_rectangle(struct kit *kit);
+struct ir_box *kit_box(struct kit *kit);
 struct ir_cylinder *kit_cylinder(struct kit *kit);
 struct ir_cone *kit_cone(struct kit *kit);
 struct ir_model *kit_model(struct kit *kit, struct mesh *mesh);

@@ -62,33 +62,56 @@ static void frames_are_rotations(void **state) {
         assert_true(upright.m[k / 3][k % 3] == (k % 4 == 0));
 }
 
+// Whether the line crosses the body; its ends inside it are on the surface, and what is between them is not
+// outside.
+static bool crosses_where_it_should(const struct scene_body *body, vec3 from, vec3 d) {
+    const struct shape_cone cone = shape_cone_of(body);
+    const double size = body->height + body->radius + body->radius_to;
+    const double slack = 64 * 0x1p-53 * (reach_of(body, from) + 5 * size);
+    double t[2];
+    bool side[2];
+    if (!shape_cone_crossing(&cone, from, d, t, side)) { // nowhere deep inside
+        for (int k = 0; k <= 20; k++)
+            assert_true(outside(body, vec3_add(from, vec3_mul(d, k * 0.5))) > -slack);
+        return false;
+    }
+    assert_true(t[0] <= t[1]);
+    for (int k = 0; k < 2; k++)
+        assert_true(fabs(outside(body, vec3_add(from, vec3_mul(d, t[k])))) <= slack);
+    assert_true(outside(body, vec3_add(from, vec3_mul(d, (t[0] + t[1]) / 2))) <= slack);
+    return true;
+}
+
 static void lines_run_inside_where_they_should(void **state) {
     (void)state;
     uint64_t seed = 2;
     uint32_t found = 0;
     for (int i = 0; i < COUNT; i++) {
         const struct scene_body body = any_cone(&seed);
-        const struct shape_cone cone = shape_cone_of(&body);
         const double size = body.height + body.radius + body.radius_to;
         const vec3 to = vec3_add(shape_middle(&body), any_vector(&seed, size / 2));
         const vec3 from = vec3_add(to, any_vector(&seed, 5 * size));
         const vec3 d = vec3_mul(vec3_sub(to, from), between(&seed, 0.1, 3));
-        double t[2];
-        bool side[2];
-        const double slack = 64 * 0x1p-53 * (reach_of(&body, from) + 5 * size);
-        const bool crosses = shape_cone_crossing(&cone, from, d, t, side);
-        found += crosses;
-        if (!crosses) { // nowhere deep inside
-            for (int k = 0; k <= 20; k++)
-                assert_true(outside(&body, vec3_add(from, vec3_mul(d, k * 0.5))) > -slack);
-            continue;
-        }
-        assert_true(t[0] <= t[1]);
-        for (int k = 0; k < 2; k++)
-            assert_true(fabs(outside(&body, vec3_add(from, vec3_mul(d, t[k])))) <= slack);
-        assert_true(outside(&body, vec3_add(from, vec3_mul(d, (t[0] + t[1]) / 2))) <= slack);
+        found += crosses_where_it_should(&body, from, d);
     }
     assert_in_range(found, COUNT / 4, COUNT);
+}
+
+// Nearly across the axis, to the last bit of a direction and beyond; half of the lines go through the axis.
+static void lines_run_across(void **state) {
+    (void)state;
+    uint64_t seed = 4;
+    for (int i = 0; i < COUNT; i++) {
+        const struct scene_body body = any_cone(&seed);
+        const double y = body.height * between(&seed, 0.1, 0.9), turn = between(&seed, 0, 2 * PI);
+        const double r = body.radius + (body.radius_to - body.radius) * (y / body.height);
+        const double off = i % 2 ? r * between(&seed, 0, 0.9) : 0;
+        const double tilt = i % 16 ? pow(10, between(&seed, -20, -2)) : 0;
+        const vec3 to = {-off * sin(turn), y, off * cos(turn)}, d = {cos(turn), tilt, sin(turn)};
+        const vec3 from = vec3_sub(to, vec3_mul(d, r * between(&seed, -0.1, 3)));
+        assert_true(crosses_where_it_should(&body, affine3_apply(body.object_to_world, from),
+                                            mat3_apply(body.object_to_world.linear, d)));
+    }
 }
 
 static void distances_are_those_to_the_surface(void **state) {
@@ -129,9 +152,8 @@ static void volumes_are_known(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_are_rotations),
-        cmocka_unit_test(lines_run_inside_where_they_should),
-        cmocka_unit_test(distances_are_those_to_the_surface),
+        cmocka_unit_test(frames_are_rotations), cmocka_unit_test(lines_run_inside_where_they_should),
+        cmocka_unit_test(lines_run_across),     cmocka_unit_test(distances_are_those_to_the_surface),
         cmocka_unit_test(volumes_are_known),
     };
     return cmocka_run_group_tests_name("cone_shape", tests, NULL, NULL);
