@@ -131,6 +131,8 @@ static double other_number(const struct schema_row *row, double value) {
         return value > 20 ? 3 : 60;
     if (row->range == SCHEMA_RANGE_ANGLE)
         return value + 40;
+    if (row->range == SCHEMA_RANGE_OPENING && value > 90) // faces of the meshes differ by some 70 degrees
+        return 20;
     return in_range(row->range, value * 1.4 + 0.05, value * 0.7);
 }
 
