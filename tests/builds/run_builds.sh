@@ -30,6 +30,12 @@ i386)
         echo "skipped: no libraries of 32 bits; tools/i386.sh fetches them"
         exit 77
     }
+    # Not every kernel runs programs of 32 bits.
+    printf '.globl _start\n_start:\nmovl $1, %%eax\nxorl %%ebx, %%ebx\nint $0x80\n' | as --32 -o narrow.o &&
+        ld -m elf_i386 -o narrow narrow.o && ./narrow 2>/dev/null || {
+        echo "skipped: this system runs no programs of 32 bits"
+        exit 77
+    }
     toolchain="--toolchain $source/cmake/i386.cmake"
     ;;
 *) exit 2 ;;
