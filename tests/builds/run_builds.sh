@@ -3,7 +3,7 @@
 #     check-only   what needs neither Vulkan nor glslang
 #     i386         the same for 32 bits, where tools/i386.sh has put its libraries
 #     web          the same as WebAssembly, run by node, where tools/web.sh has built its libraries
-# The build folder is WORK/../build_KIND, so that another run only builds what has changed.
+# The build folder is WORK/../build_KIND, of the module build/web, so that another run only builds what has changed.
 built=$(dirname -- "$3")/build_$4
 . "$2/tests/cli/lib.sh"
 kind=$4
@@ -16,6 +16,7 @@ web)
     toolchain=
     preset=web
     targets=npm_package
+    built=$source/build/web
     GLINT_WEB=${GLINT_WEB:-$source/build/web-root}
     export GLINT_WEB
     [ -d "$GLINT_WEB/root" ] || {

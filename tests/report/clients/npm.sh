@@ -3,12 +3,8 @@
 . "$(dirname -- "$0")/lib.sh"
 needs node
 needs npm
-package=
-for folder in "$source/build/web/glint-lint" "$(dirname -- "$glint")/tests/builds/build_web/glint-lint"; do
-    [ -f "$folder/glint.wasm" ] || continue
-    [ -n "$package" ] && [ -z "$(find "$folder/glint.wasm" -newer "$package/glint.wasm")" ] || package=$folder
-done
-[ -n "$package" ] || skip "the npm package is not built; 'cmake --build --preset web' does so"
+package=$source/build/web/glint-lint
+[ -f "$package/glint.wasm" ] || skip "the npm package is not built; 'cmake --build --preset web' does so"
 # Only its own cache, and no line to a registry.
 npm_config_cache=$work/cache npm_config_offline=true npm_config_update_notifier=false HOME=$work
 export npm_config_cache npm_config_offline npm_config_update_notifier HOME
