@@ -476,7 +476,8 @@ static bool chain(struct scan *s, struct part *out, bool (*operand)(struct scan 
         struct part right;
         if (next(s) == sign[0] && after_next(s) == sign[0])
             return fail_with(s, s->at, s->at + 2,
-                             sign[0] == '&' ? "'&&' is written 'and'" : "'||' is written 'or'", fix, fix);
+                             sign[0] == '&' ? "'&&' is written 'and'" : "'||' is written 'or'",
+                             sign[0] == '&' ? "write and" : "write or", fix);
         if (!take_word(s, word))
             return true;
         if (!expect_truth(s, out, word))
