@@ -99,6 +99,6 @@ int main(int argc, char **argv) {
         cmocka_unit_test(exact_quarters),
         cmocka_unit_test(same_bits),
     };
-    count = argc > 1 ? atoi(argv[1]) : count;
+    count = argc > 1 ? (int)strtol(argv[1], NULL, 10) : count;
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
