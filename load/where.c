@@ -3,6 +3,7 @@
 
 #include "grammar/ir.h"
 #include "grammar/ir_features.h"
+#include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 #include "scene/hits.h"
 
@@ -25,6 +26,7 @@ bool where_find(const struct session *session, uint32_t number, uint32_t triangl
         return false;
     const struct scene_body *body = &session->resolved.bodies[number];
     *out = (struct where){.kind = body->element->name,
+                          .list = schema_yaml_key(ir_walk_pool(body->element)),
                           .index = body->index,
                           .name = body->name,
                           .at = ir_place_label(&session->origin, body->head),
@@ -47,7 +49,7 @@ void where_body_words(const struct where *where, struct strbuf *out) {
     else if (where->name.len)
         strbuf_format(out, "%s '%.*s'", where->kind, STR_ARG(where->name));
     else
-        strbuf_format(out, "%ss[%u]", where->kind, where->index);
+        strbuf_format(out, "%s[%u]", where->list, where->index);
 }
 
 void where_material_words(const struct where *where, struct strbuf *out) {

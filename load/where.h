@@ -11,6 +11,7 @@
 
 struct where {
     const char *kind;          // as the language calls it: "sphere"
+    const char *list;          // of the scene, that holds it: "spheres"
     uint32_t index;            // in that list
     str name;                  // empty: it has none
     span at;                   // in the scene

@@ -23,7 +23,7 @@ static struct aov_name object_of(const struct session *session, uint32_t body, s
     where_find(session, body, 0, &where);
     return (struct aov_name){.name = where.name.len
                                          ? text(arena, where.name)
-                                         : arena_format(arena, "%ss[%u]", where.kind, where.index).ptr,
+                                         : arena_format(arena, "%s[%u]", where.list, where.index).ptr,
                              .kind = where.kind,
                              .at = where.at};
 }
