@@ -67,7 +67,7 @@ static bool take(struct scan *s, char c) {
 
 static str peek_name(struct scan *s) {
     skip_blanks(s);
-    return str_slice(s->text, s->at, s->at + expression_name_length(s->text, s->at));
+    return str_slice(s->text, s->at, s->at + expression_name_at(s->text, s->at));
 }
 
 static bool take_word(struct scan *s, const char *word) {
@@ -250,7 +250,7 @@ static bool atom(struct scan *s, struct part *out) {
     const size_t begin = s->at;
     if (char_is_digit(c) || c == '.')
         return number(s, out);
-    if (expression_begins_name(c))
+    if (expression_name_at(s->text, begin))
         return name(s, out);
     if (c == '+')
         return fail_with(s, begin, begin + 1, "a number has no '+' before it", "leave the '+' out", "");
@@ -271,7 +271,7 @@ static bool components(struct scan *s, struct part *out) {
     if (!atom(s, out))
         return false;
     while (s->at < s->text.len && s->text.ptr[s->at] == '.') {
-        const size_t dot = s->at++, length = expression_name_length(s->text, s->at);
+        const size_t dot = s->at++, length = expression_name_at(s->text, s->at);
         const char *which = length == 1 ? strchr(names, s->text.ptr[s->at]) : NULL;
         s->at += length;
         if (out->type != EXPRESSION_TRIPLE)

@@ -74,6 +74,8 @@ bool expression_compile(str text, const struct expression_scope *scope, struct a
 // 1 number, 1 truth, or all of a triple, in `value`.
 bool expression_at(const struct expression *expression, const struct expression_at *at,
                    double value[EXPRESSION_WIDTH], struct expression_fault *fault);
+// Appends a value as the scene language writes it: 2.5, true, [0, 1, 0], #c08050.
+void expression_print(enum expression_type type, const double value[EXPRESSION_WIDTH], struct strbuf *out);
 // Both at once, for a number that is needed in one frame, without names.
 bool expression_value(str text, const struct expression_at *at, double *value,
                       struct expression_fault *fault);
@@ -90,10 +92,18 @@ struct expression_word {
 };
 const struct expression_word *expression_words(void);
 bool expression_is_word(str name);
+// Words of YAML and of number formats, in small letters: no names, and no expressions. NULL after the last.
+const char *const *expression_no_words(void);
 // Whether the text can be nothing but an expression: it has a name, a call, or an operator between operands.
 // A single number with something wrong in it (1_000, 3m, 50%, 1,5) is none.
 bool expression_is_meant(str text);
-// Whether the text is a name alone, letters, digits and '_'.
-bool expression_is_name(str text);
+// Bytes of the name, letters, digits and '_', that the text begins with; 0: it begins with none.
+size_t expression_name_length(str text);
+// Whether a scene may give the name to something.
+bool expression_is_free(str name);
+// Whether the text is a name alone.
+static inline bool expression_is_name(str text) {
+    return text.len > 0 && expression_name_length(text) == text.len;
+}
 
 #endif

@@ -72,12 +72,10 @@ int expression_find_function(str name); // -1: none
 // What to write instead of a function of another language; NULL: it is not one.
 const char *expression_foreign(str function);
 
-// Letters of every script: other characters are refused where names are declared.
-static inline bool expression_begins_name(char c) {
-    return char_is_letter(c) || c == '_' || (unsigned char)c >= 0x80;
-}
 // Bytes of the name that begins at `at`; 0: none does.
-size_t expression_name_length(str text, size_t at);
+static inline size_t expression_name_at(str text, size_t at) {
+    return expression_name_length(str_slice(text, at, text.len));
+}
 
 __attribute__((format(printf, 4, 5))) bool expression_fail(struct expression_fault *fault, size_t begin,
                                                            size_t end, const char *format, ...);

@@ -2,6 +2,7 @@
 #include "core/expression_internal.h"
 
 #include "core/number.h"
+#include "core/unicode.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -90,16 +91,37 @@ const char *expression_type_name(enum expression_type type) {
     return names[type];
 }
 
-size_t expression_name_length(str text, size_t at) {
-    size_t end = at;
-    while (end < text.len &&
-           (expression_begins_name(text.ptr[end]) || (end > at && char_is_digit(text.ptr[end]))))
-        end++;
-    return end - at;
+// Bytes of the letter, digit or '_' of a name at `at`; 0: there is none.
+static size_t name_character(str text, size_t at, bool is_first) {
+    const char c = at < text.len ? text.ptr[at] : '+';
+    if ((unsigned char)c < 0x80)
+        return char_is_letter(c) || c == '_' || (!is_first && char_is_digit(c));
+    const size_t length = utf8_sequence_length(text, at);
+    const uint32_t code = length ? utf8_decode(text, at) : 0;
+    return unicode_is_letter(code) || (!is_first && unicode_is_digit(code)) ? length : 0;
 }
 
-bool expression_is_name(str text) {
-    return text.len > 0 && expression_name_length(text, 0) == text.len;
+size_t expression_name_length(str text) {
+    size_t end = 0, length;
+    while ((length = name_character(text, end, end == 0)))
+        end += length;
+    return end;
+}
+
+void expression_print(enum expression_type type, const double value[EXPRESSION_WIDTH], struct strbuf *out) {
+    char digits[NUMBER_FORMAT_MAX];
+    if (type == EXPRESSION_TRUTH) {
+        strbuf_cstr(out, value[0] != 0 ? "true" : "false");
+    } else if (type == EXPRESSION_TRIPLE && value[3] >= 0) {
+        strbuf_format(out, "#%06x", (unsigned)value[3]);
+    } else {
+        const int count = type == EXPRESSION_TRIPLE ? 3 : 1;
+        for (int i = 0; i < count; i++) {
+            number_format(value[i], digits);
+            strbuf_format(out, "%s%s", i ? ", " : count > 1 ? "[" : "", digits);
+        }
+        strbuf_cstr(out, count > 1 ? "]" : "");
+    }
 }
 
 // ---- what is meant
@@ -113,14 +135,17 @@ enum token {
     TOKEN_OTHER,
 };
 
-// The words of YAML and of number formats, which have messages of their own.
-static bool is_yaml_word(str text) {
-    static const char *const yaml[] = {"yes", "no",  "on",       "off",  "null", "nan",
-                                       "inf", "nil", "infinity", "none", "true", "false"};
-    for (size_t i = 0; i < sizeof yaml / sizeof *yaml; i++) {
-        bool same = strlen(yaml[i]) == text.len;
+const char *const *expression_no_words(void) {
+    static const char *const none[] = {"yes", "no",       "on",   "off",  "null",  "nan", "inf",
+                                       "nil", "infinity", "none", "true", "false", NULL};
+    return none;
+}
+
+static bool is_no_word(str text) {
+    for (const char *const *word = expression_no_words(); *word; word++) {
+        bool same = strlen(*word) == text.len;
         for (size_t k = 0; same && k < text.len; k++)
-            same = char_lower(text.ptr[k]) == yaml[i][k];
+            same = char_lower(text.ptr[k]) == (*word)[k];
         if (same)
             return true;
     }
@@ -132,22 +157,35 @@ static bool is_word_operator(str name) {
            str_equal(name, STR("else"));
 }
 
+// Digits, and what is written together with them: 3m, 0x10, 1e-3.
+static void skip_number(str text, size_t *at) {
+    const size_t begin = *at;
+    double ignored;
+    size_t part;
+    while ((part = *at < text.len && text.ptr[*at] == '.' ? 1 : name_character(text, *at, false)))
+        *at += part;
+    const char last = text.ptr[*at - 1];
+    const bool has_sign = *at + 1 < text.len && (text.ptr[*at] == '-' || text.ptr[*at] == '+');
+    if ((last == 'e' || last == 'E') && has_sign && char_is_digit(text.ptr[*at + 1]) &&
+        number_parse(str_slice(text, begin, *at - 1), &ignored) == NUMBER_OK)
+        for (++*at; *at < text.len && char_is_digit(text.ptr[*at]); ++*at) {
+        }
+}
+
 static enum token take_token(str text, size_t *at, str *name) {
     while (*at < text.len && char_is_space(text.ptr[*at]))
         ++*at;
     if (*at >= text.len)
         return TOKEN_END;
     const char c = text.ptr[*at];
-    const size_t length = expression_name_length(text, *at);
+    const size_t length = expression_name_at(text, *at);
     *name = str_slice(text, *at, *at + length);
     if (length) {
         *at += length;
         return is_word_operator(*name) ? TOKEN_OPERATOR : TOKEN_NAME;
     }
     if (char_is_digit(c) || (c == '.' && *at + 1 < text.len && char_is_digit(text.ptr[*at + 1]))) {
-        while (*at < text.len && (char_is_digit(text.ptr[*at]) || text.ptr[*at] == '.' ||
-                                  expression_begins_name(text.ptr[*at])))
-            ++*at;
+        skip_number(text, at);
         return TOKEN_NUMBER;
     }
     const size_t begin = *at;
@@ -160,7 +198,7 @@ static enum token take_token(str text, size_t *at, str *name) {
 }
 
 static bool is_component(str text, size_t dot) {
-    const size_t length = expression_name_length(text, dot + 1);
+    const size_t length = expression_name_at(text, dot + 1);
     return text.len > dot + 1 && text.ptr[dot] == '.' && length == 1 && memchr("xyz", text.ptr[dot + 1], 3);
 }
 
@@ -169,7 +207,7 @@ bool expression_is_meant(str text) {
     enum token before = TOKEN_END, last = TOKEN_END, token;
     str name = STR(""), one = STR("");
     size_t at = 0;
-    if (number_parse(text, &ignored) == NUMBER_OK || is_yaml_word(text))
+    if (number_parse(text, &ignored) == NUMBER_OK || is_no_word(text))
         return false;
     if (expression_is_name(text))
         return true;
@@ -177,7 +215,7 @@ bool expression_is_meant(str text) {
         const bool operand = token == TOKEN_NAME || token == TOKEN_NUMBER || token == TOKEN_OPEN;
         if (token == TOKEN_OPEN && last == TOKEN_NAME)
             return true;
-        if (token == TOKEN_NAME && !is_yaml_word(one) &&
+        if (token == TOKEN_NAME && !is_no_word(one) &&
             ((last == TOKEN_OPERATOR && before == TOKEN_END) || (last == TOKEN_OPEN && before == TOKEN_END) ||
              is_component(text, at) || str_equal(name, STR("not"))))
             return true;
@@ -191,4 +229,9 @@ bool expression_is_meant(str text) {
             last = TOKEN_NUMBER;
     }
     return false;
+}
+
+bool expression_is_free(str name) {
+    return expression_is_name(name) && !expression_is_word(name) && !is_no_word(name) &&
+           !str_equal(name, STR("tau"));
 }

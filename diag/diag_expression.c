@@ -27,31 +27,40 @@ static bool is_part(const struct diag_expression *expression, span place) {
     return place.begin != expression->at.begin || place.end != expression->at.end;
 }
 
+static bool is_offered(const struct expression_word *own, bool of_function) {
+    return of_function ? own->is_function : !own->is_function && strcmp(own->name, own->form) == 0;
+}
+
+static str find_near(struct diag_sink *sink, const struct diag_expression *expression, str word,
+                     bool of_function) {
+    struct nearest near = nearest_begin_within(word, &sink->search_left);
+    for (uint32_t i = 0; i < expression->name_count && !of_function; i++)
+        nearest_offer(&near, expression->names[i]);
+    for (const struct expression_word *own = expression_words(); own->name; own++)
+        if (is_offered(own, of_function))
+            nearest_offer(&near, str_from(own->name));
+    return nearest_best(&near);
+}
+
+bool diag_expression_is_near(struct diag_sink *sink, const struct diag_expression *expression, str word) {
+    return find_near(sink, expression, word, false).len > 0;
+}
+
 // What was probably meant, and for a number all that there is: "did you mean 'columns'? In reach: columns,
 // pitch, frame, time".
 static void help_name(struct diag_sink *sink, const struct diag_expression *expression, str word, span place,
                       bool of_function) {
-    struct nearest near = nearest_begin_within(word, &sink->search_left);
+    const str best = find_near(sink, expression, word, of_function);
+    const uint32_t count = of_function ? 0 : expression->name_count;
     struct strbuf list;
-    uint32_t more = 0;
     strbuf_init(&list);
-    for (uint32_t i = 0; i < expression->name_count && !of_function; i++) {
-        nearest_offer(&near, expression->names[i]);
-        if (i < NAMES_MOST)
-            strbuf_format(&list, "%s%.*s", list.len ? ", " : "", STR_ARG(expression->names[i]));
-        else
-            more++;
-    }
-    if (more)
-        strbuf_format(&list, " and %u more", more);
-    for (const struct expression_word *own = expression_words(); own->name; own++) {
-        const bool is_number = !own->is_function && strcmp(own->name, own->form) == 0;
-        if (own->is_function != of_function || (!of_function && !is_number))
-            continue;
-        nearest_offer(&near, str_from(own->name));
-        strbuf_format(&list, "%s%s", list.len ? ", " : "", own->form);
-    }
-    const str best = nearest_best(&near);
+    for (uint32_t i = 0; i < count && i < NAMES_MOST; i++)
+        strbuf_format(&list, "%s%.*s", list.len ? ", " : "", STR_ARG(expression->names[i]));
+    if (count > NAMES_MOST)
+        strbuf_format(&list, " and %u more", count - NAMES_MOST);
+    for (const struct expression_word *own = expression_words(); own->name; own++)
+        if (is_offered(own, of_function))
+            strbuf_format(&list, "%s%s", list.len ? ", " : "", own->form);
     if (best.len && of_function)
         diag_help(sink, "did you mean '%.*s'?", STR_ARG(best));
     else if (best.len)

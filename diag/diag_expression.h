@@ -18,6 +18,8 @@ struct diag_expression {
 // The place of a part of the text, where the file has the text literally; else of all of it.
 span diag_expression_part(const struct source_set *sources, const struct diag_expression *expression,
                           size_t begin, size_t end);
+// Whether a name in reach, or a word of expressions that has a value, is spelled almost like the word.
+bool diag_expression_is_near(struct diag_sink *sink, const struct diag_expression *expression, str word);
 void diag_expression_fault(struct diag_sink *sink, const struct source_set *sources, diag_code code,
                            const struct diag_expression *expression, const struct expression_fault *fault);
 

@@ -13,6 +13,8 @@
 #include "core/vec3.h"
 #include "grammar/ir_value.h"
 
+struct ir_formulas; // grammar/ir_formula.h
+
 // The fields of an enum are `unsigned` in the structs, so that the schema can derive their kind.
 enum ir_depth_limit {
     IR_DEPTH_BACKGROUND,
@@ -419,6 +421,19 @@ struct ir_animation {
     struct ir_tracks tracks;
 };
 
+// A number, truth, vector or colour with a name.
+struct ir_parameter {
+    struct ir_head head;
+    str name;
+    str value; // SCHEMA_TEXT_VALUES
+    double min, max;
+    str description;
+};
+struct ir_parameters {
+    struct ir_parameter *items;
+    uint32_t count, capacity;
+};
+
 struct ir_includes {
     struct ir_include *items;
     uint32_t count, capacity;
@@ -466,6 +481,7 @@ struct ir_scene {
     int32_t version;
     str description;
     struct ir_includes includes;
+    struct ir_parameters parameters;
     struct ir_image image;
     struct ir_trace trace;
     struct ir_background background;
@@ -481,6 +497,7 @@ struct ir_scene {
     struct ir_cones cones;
     struct ir_models models;
     struct ir_animation animation; // at its defaults once a frame was taken: ir_origin.motion
+    struct ir_formulas *formulas;  // of the scene and its files; NULL: none
 };
 
 // Bodies are numbered spheres, rectangles, boxes, cylinders, cones, models, each in file order.

@@ -2,6 +2,7 @@
 
 #include "core/heap.h"
 #include "grammar/ir.h"
+#include "grammar/ir_formula.h"
 #include "grammar/ir_origin.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
@@ -56,6 +57,7 @@ struct ir_scene *ir_copy(const struct ir_scene *scene, struct arena *arena) {
 void ir_origin_copy(const struct ir_origin *from, struct arena *arena, struct ir_origin *out) {
     *out = *from;
     out->arena = arena;
+    out->formulas = ir_formulas_copy(from->formulas, arena);
     COPY_LIST(elements);
     COPY_LIST(rows);
     COPY_LIST(files);

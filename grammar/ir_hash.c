@@ -66,6 +66,8 @@ void ir_hash(struct hash128 *h, const struct schema_element *schema, const void 
         const struct schema_row *row = &schema->rows[i];
         const char *field = schema_field_const(row, element);
         const uint32_t values = row->many == SCHEMA_FIXED ? row->fixed_count : 1;
+        if (row->aside)
+            continue;
         if (row->kind == SCHEMA_LIST)
             hash_list(h, row, element);
         for (uint32_t k = 0; k < values; k++)

@@ -1,5 +1,6 @@
 #include "grammar/ir_origin.h"
 
+#include "grammar/ir_formula.h"
 #include "grammar/ir_value.h"
 #include "grammar/schema.h"
 
@@ -14,7 +15,7 @@ static uint32_t push_row(struct ir_origin *origin, struct ir_row_origin row) {
 }
 
 void ir_origin_init(struct ir_origin *origin, struct arena *arena) {
-    *origin = (struct ir_origin){.arena = arena};
+    *origin = (struct ir_origin){.arena = arena, .formulas = ir_formulas_new(arena)};
     ir_origin_add(origin, (struct ir_element_origin){.at = SPAN_NONE});
     push_row(origin, (struct ir_row_origin){.row = 0});
 }

@@ -10,6 +10,7 @@
 #include "core/arena.h"
 #include "diag/source.h"
 
+struct ir_formulas;
 struct ir_head;
 struct ir_scene;
 struct schema_element;
@@ -41,6 +42,7 @@ struct ir_file_origin {
 
 struct ir_origin {
     struct arena *arena;
+    struct ir_formulas *formulas; // of all files
     struct {
         struct ir_element_origin *items;
         uint32_t count, capacity;

@@ -14,6 +14,7 @@ struct ir_head {
     uint64_t written;  // bit i: row i of the element's schema is in the file
     uint64_t poisoned; // bit i: row i was written and wrong
     uint32_t origin;   // id in struct ir_origin; 0: no place (made by the program)
+    uint32_t formulas; // the first of its values that are computed (grammar/ir_formula.h); 0: none
 };
 
 struct ir_color {

@@ -524,7 +524,7 @@ const struct schema_element SCHEMA_MODEL = {
     ELEMENT("model", "Model", ir_model, model_rows, "A mesh from a file, placed in the scene.")};
 
 static const struct schema_row scene_rows[] = {
-    {.name = "glint", FIELD(ir_scene, version), .example = "1", .range = SCHEMA_RANGE_VERSION,
+    {.name = "glint", FIELD(ir_scene, version), .example = "1", .range = SCHEMA_RANGE_VERSION, .plain = true,
      .required = true, .doc = "Version of the language: 1."},
     {.name = "description", FIELD(ir_scene, description), .example = "A glass ball", .text = SCHEMA_TEXT_FREE,
      .also = "title comment comments note notes author",
@@ -532,6 +532,9 @@ static const struct schema_row scene_rows[] = {
     {.name = "include", .element = "Include", FIELD(ir_scene, includes), .many = SCHEMA_SEQUENCE,
      .also = "import",
      .child = &SCHEMA_INCLUDE, .doc = "Scene files that are part of this one."},
+    {.name = "parameter", .element = "Parameter", .plural = "parameters", FIELD(ir_scene, parameters), .many = SCHEMA_NAMED_MAP,
+     .also = "variable variables param params constant constants define defines let var vars", .aside = true,
+     .child = &SCHEMA_PARAMETER, .doc = "Values with names, which expressions of the scene use."},
     {.name = "image", .element = "Image", FIELD(ir_scene, image), .child = &SCHEMA_IMAGE,
      .also = "film output picture resolution",
      .doc = "The picture."},

@@ -138,6 +138,8 @@ struct schema_row {
     bool fill;       // SCHEMA_VECTOR, SCHEMA_PAIR: a single number fills all components
     bool short_form; // the element's bare scalar or sequence is this row
     bool key;        // in a named map, the map's key; written as an attribute in XML
+    bool plain;      // its numbers are written, never computed
+    bool aside;      // says nothing about the picture: no part of a scene's hash
     enum schema_many many;
     const char *single;   // SCHEMA_NAMED_MAP: YAML `name: {...}` is one entry with this key
     uint32_t fixed_count; // SCHEMA_FIXED
@@ -167,12 +169,13 @@ struct schema_element {
     struct schema_choice choices[3]; // by schema_row.choice - 1
 };
 
-extern const struct schema_element SCHEMA_SCENE, SCHEMA_INCLUDE, SCHEMA_IMAGE, SCHEMA_TRACE, SCHEMA_CAMERA,
-    SCHEMA_BACKGROUND, SCHEMA_AMBIENT, SCHEMA_LIGHT, SCHEMA_PANEL, SCHEMA_MATERIAL, SCHEMA_PAINT,
-    SCHEMA_CHECKER, SCHEMA_TEXTURE, SCHEMA_HIGHLIGHT, SCHEMA_MESH, SCHEMA_LATHE, SCHEMA_OUTLINE_POINT,
-    SCHEMA_TORUS, SCHEMA_EXTRUDE, SCHEMA_HOLE, SCHEMA_FACES, SCHEMA_VERTEX, SCHEMA_UV, SCHEMA_FACE,
-    SCHEMA_CORNER, SCHEMA_MESH_TEXT, SCHEMA_SPHERE, SCHEMA_RECTANGLE, SCHEMA_BOX, SCHEMA_CYLINDER,
-    SCHEMA_CONE, SCHEMA_MODEL, SCHEMA_MAP_ENTRY, SCHEMA_ANIMATION, SCHEMA_TRACK, SCHEMA_KEYFRAME;
+extern const struct schema_element SCHEMA_SCENE, SCHEMA_INCLUDE, SCHEMA_PARAMETER, SCHEMA_IMAGE, SCHEMA_TRACE,
+    SCHEMA_CAMERA, SCHEMA_BACKGROUND, SCHEMA_AMBIENT, SCHEMA_LIGHT, SCHEMA_PANEL, SCHEMA_MATERIAL,
+    SCHEMA_PAINT, SCHEMA_CHECKER, SCHEMA_TEXTURE, SCHEMA_HIGHLIGHT, SCHEMA_MESH, SCHEMA_LATHE,
+    SCHEMA_OUTLINE_POINT, SCHEMA_TORUS, SCHEMA_EXTRUDE, SCHEMA_HOLE, SCHEMA_FACES, SCHEMA_VERTEX, SCHEMA_UV,
+    SCHEMA_FACE, SCHEMA_CORNER, SCHEMA_MESH_TEXT, SCHEMA_SPHERE, SCHEMA_RECTANGLE, SCHEMA_BOX,
+    SCHEMA_CYLINDER, SCHEMA_CONE, SCHEMA_MODEL, SCHEMA_MAP_ENTRY, SCHEMA_ANIMATION, SCHEMA_TRACK,
+    SCHEMA_KEYFRAME;
 
 // All elements, the scene first; NULL at the end.
 extern const struct schema_element *const schema_elements[];
@@ -200,6 +203,8 @@ bool schema_is_attribute(const struct schema_row *row);
 const char *schema_yaml_key(const struct schema_row *row);
 // Names of a kind's components: {"x","y","z"}, {"r","g","b"}, {"diffuse",...}; NULL at the end.
 const char *const *schema_components(enum schema_kind kind);
+// Whether an expression may stand there.
+bool schema_may_compute(const struct schema_row *row);
 uint32_t schema_component_count(enum schema_kind kind); // 0: it has none
 // Endings of the files of a kind: {".png", ".jpg", ...}; NULL at the end.
 const char *const *schema_file_endings(enum schema_file kind);

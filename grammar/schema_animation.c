@@ -13,7 +13,7 @@ static const char *const loop_docs[] = {"The first key's value before it, the la
 // A row reads as a unit, its columns in lines of text.
 // clang-format off
 static const struct schema_row keyframe_rows[] = {
-    {.name = "frame", FIELD(ir_keyframe, frame), .example = "50", .range = SCHEMA_RANGE_FRAME, .required = true,
+    {.name = "frame", FIELD(ir_keyframe, frame), .example = "50", .range = SCHEMA_RANGE_FRAME, .required = true, .plain = true,
      .also = "time at t", .doc = "The frame, counted from 0; keys are written in the order of their frames."},
     {.name = "value", FIELD(ir_keyframe, value), .example = "30", .text = SCHEMA_TEXT_VALUES, .required = true,
      .also = "v values", .doc = "The value there: as many numbers as the target has."},
@@ -41,11 +41,11 @@ const struct schema_element SCHEMA_TRACK = {
     ELEMENT("track", "Track", ir_track, track_rows, "How one value of the scene moves: by keys, or by an expression.")};
 
 static const struct schema_row animation_rows[] = {
-    {.name = "frames", FIELD(ir_animation, frames), .example = "100", .range = SCHEMA_RANGE_FRAMES, .required = true,
+    {.name = "frames", FIELD(ir_animation, frames), .example = "100", .range = SCHEMA_RANGE_FRAMES, .required = true, .plain = true,
      .also = "frame_count length duration count end", .doc = "How many frames there are; they are counted from 0."},
-    {.name = "rate", FIELD(ir_animation, rate), .example = "24", .range = SCHEMA_RANGE_RATE, .standard = "25",
+    {.name = "rate", FIELD(ir_animation, rate), .example = "24", .range = SCHEMA_RANGE_RATE, .standard = "25", .plain = true,
      .also = "fps frame_rate framerate frames_per_second", .doc = "Frames in a second, of films and of 'time'."},
-    {.name = "frame", FIELD(ir_animation, frame), .example = "12", .example_alone = true, .range = SCHEMA_RANGE_FRAME,
+    {.name = "frame", FIELD(ir_animation, frame), .example = "12", .example_alone = true, .range = SCHEMA_RANGE_FRAME, .plain = true,
      .also = "current start poster",
      .doc = "The frame that the scene shows by itself; if left out, its values as they are written."},
     {.name = "track", .element = "Track", .plural = "tracks", FIELD(ir_animation, tracks), .child = &SCHEMA_TRACK,

@@ -38,6 +38,7 @@
         struct ir_text: SCHEMA_ELEMENT,                                                                      \
         struct ir_animation: SCHEMA_ELEMENT,                                                                 \
         struct ir_includes: SCHEMA_LIST,                                                                     \
+        struct ir_parameters: SCHEMA_LIST,                                                                   \
         struct ir_cameras: SCHEMA_LIST,                                                                      \
         struct ir_lights: SCHEMA_LIST,                                                                       \
         struct ir_materials: SCHEMA_LIST,                                                                    \

@@ -52,6 +52,7 @@ static const struct schema_range_info ranges[SCHEMA_RANGE_COUNT] = {
 const struct schema_element *const schema_elements[] = {
     &SCHEMA_SCENE,
     &SCHEMA_INCLUDE,
+    &SCHEMA_PARAMETER,
     &SCHEMA_IMAGE,
     &SCHEMA_TRACE,
     &SCHEMA_CAMERA,
@@ -315,4 +316,10 @@ void schema_init(const struct schema_element *element, void *memory) {
         for (uint32_t k = 0; k < count; k++)
             init_field(row, (char *)schema_field(row, memory) + (size_t)k * row->size);
     }
+}
+
+bool schema_may_compute(const struct schema_row *row) {
+    const bool has_numbers = schema_components(row->kind)[0] || row->kind == SCHEMA_NUMBER ||
+                             row->kind == SCHEMA_INTEGER || row->kind == SCHEMA_BOOLEAN;
+    return has_numbers && !row->plain;
 }

@@ -1,6 +1,7 @@
 // JSON Schema draft-07 for the YAML spelling.
 #include "grammar/emit/emit.h"
 
+#include "core/expression.h"
 #include "core/heap.h"
 #include "core/number.h"
 #include "grammar/emit/emit_lines.h"
@@ -43,17 +44,52 @@ static json_t *number_schema(const struct schema_row *row) {
                      json_double(range->least), "maximum", json_double(range->greatest));
 }
 
+// In small letters, capitals, and with one.
+static void add_spellings(json_t *list, const char *word) {
+    char small[16], one[16], all[16];
+    size_t i = 0;
+    for (; word[i] && i + 1 < sizeof small; i++) {
+        small[i] = word[i];
+        all[i] = (char)(word[i] - 'a' + 'A');
+        one[i] = i ? small[i] : all[i];
+    }
+    small[i] = one[i] = all[i] = '\0';
+    json_array_append_new(list, json_string(small));
+    json_array_append_new(list, json_string(one));
+    json_array_append_new(list, json_string(all));
+}
+
+static json_t *expression_schema(void) {
+    json_t *words = json_array();
+    for (const char *const *word = expression_no_words(); *word; word++)
+        add_spellings(words, *word);
+    return json_pack("{s:s, s:s, s:s, s:{s:o}}", "description", "An expression, as in columns*pitch - 1.",
+                     "type", "string", "pattern", "^(" EMIT_EXPRESSION_PATTERN ")$", "not", "enum", words);
+}
+
+// An expression may stand in its place.
+static json_t *or_expression(const struct schema_row *row, json_t *value) {
+    if (row->plain)
+        return value;
+    json_t *expression = json_pack("{s:s}", "$ref", "#/definitions/expression");
+    json_t *forms = json_object_get(value, "anyOf");
+    if (!forms || json_object_get(value, "type"))
+        return json_pack("{s:[o, o]}", "anyOf", value, expression);
+    json_array_append_new(forms, expression);
+    return value;
+}
+
 static json_t *components_schema(const struct schema_row *row) {
     const char *const *names = schema_components(row->kind);
     json_t *properties = json_object();
     json_t *required = json_array();
     int count = 0;
     for (; names[count]; count++) {
-        json_object_set_new(properties, names[count], number_schema(row));
+        json_object_set_new(properties, names[count], or_expression(row, number_schema(row)));
         json_array_append_new(required, json_string(names[count]));
     }
-    json_t *list = json_pack("{s:s, s:o, s:i, s:i}", "type", "array", "items", number_schema(row), "minItems",
-                             count, "maxItems", count);
+    json_t *list = json_pack("{s:s, s:o, s:i, s:i}", "type", "array", "items",
+                             or_expression(row, number_schema(row)), "minItems", count, "maxItems", count);
     json_t *map =
         json_pack("{s:s, s:o, s:b}", "type", "object", "properties", properties, "additionalProperties", 0);
     if (row->kind == SCHEMA_WEIGHTS)
@@ -66,7 +102,9 @@ static json_t *components_schema(const struct schema_row *row) {
     if (row->kind == SCHEMA_COLOR)
         json_array_append_new(forms,
                               json_pack("{s:s, s:s}", "type", "string", "pattern", "^" EMIT_HEX_PATTERN "$"));
-    return json_pack("{s:o}", "anyOf", forms);
+    json_t *all = json_pack("{s:o}", "anyOf", forms);
+    return row->kind == SCHEMA_VECTOR || row->kind == SCHEMA_COLOR || row->fill ? or_expression(row, all)
+                                                                                : all;
 }
 
 static json_t *word_schema(const struct schema_row *row) {
@@ -84,7 +122,7 @@ static json_t *text_schema(enum schema_text text) {
     if (text == SCHEMA_TEXT_NAME || text == SCHEMA_TEXT_BODY_NAME)
         return json_pack("{s:s, s:s}", "type", "string", "pattern", NAME_PATTERN);
     if (text == SCHEMA_TEXT_VALUES) {
-        json_t *one = json_pack("{s:[s, s], s:i}", "type", "number", "string", "minLength", 1);
+        json_t *one = json_pack("{s:[s, s, s], s:i}", "type", "number", "boolean", "string", "minLength", 1);
         return json_pack("{s:[O, {s:s, s:o, s:i, s:i}]}", "anyOf", one, "type", "array", "items", one,
                          "minItems", 1, "maxItems", IR_VALUES_MOST);
     }
@@ -121,10 +159,10 @@ static json_t *list_schema(const struct schema_row *row) {
 static json_t *value_schema(const struct schema_row *row) {
     switch (row->kind) {
     case SCHEMA_BOOLEAN:
-        return json_pack("{s:s}", "type", "boolean");
+        return or_expression(row, json_pack("{s:s}", "type", "boolean"));
     case SCHEMA_INTEGER:
     case SCHEMA_NUMBER:
-        return number_schema(row);
+        return or_expression(row, number_schema(row));
     case SCHEMA_WORD:
         return word_schema(row);
     case SCHEMA_TEXT:
@@ -302,6 +340,7 @@ void emit_json_schema(struct strbuf *out) {
     for (const struct schema_element *const *e = schema_elements; *e; e++)
         if (*e != &SCHEMA_SCENE)
             json_object_set_new(definitions, (*e)->name, element_schema(*e));
+    json_object_set_new(definitions, "expression", expression_schema());
     json_object_set_new(root, "definitions", definitions);
     char *text = json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(15));
     json_decref(root);

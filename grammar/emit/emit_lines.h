@@ -10,7 +10,12 @@
 // Regular expressions as XML Schema writes them.
 #define EMIT_NUMBER_PATTERN "[+\\-]?(\\d+\\.?\\d*|\\.\\d+)([eE][+\\-]?\\d+)?"
 #define EMIT_HEX_PATTERN    "#[0-9A-Fa-f]{6}"
-#define EMIT_NAME_PATTERN   "[^\\d\\s!-,./:-@\\[-\\^`{-~][^\\s!-,./:-@\\[-\\^`{-~]{0,127}"
+// What is not a number can only be an expression if it begins with a name, or with a number and an operator.
+// (;-> are also < = and >, which XML would want escaped.)
+#define EMIT_EXPRESSION_PATTERN                                                                              \
+    "[(\\-\\s]*([^\\d\\s!-/:-@\\[-\\^`{-~].*|"                                                               \
+    "[\\d.]+([eE][+\\-]?\\d+)?\\)*\\s*(if\\s|[!%*+\\-/;->\\^])\\s*[^\\s].*)"
+#define EMIT_NAME_PATTERN "[^\\d\\s!-,./:-@\\[-\\^`{-~][^\\s!-,./:-@\\[-\\^`{-~]{0,127}"
 
 struct emit_lines {
     struct strbuf *out;

@@ -115,6 +115,13 @@ static void put_choices(struct strbuf *out, const struct schema_element *schema)
     }
 }
 
+static bool has_aside(const struct schema_element *schema) {
+    for (uint32_t i = 0; i < schema->row_count; i++)
+        if (schema->rows[i].aside)
+            return true;
+    return false;
+}
+
 static void put_element(struct strbuf *out, const struct schema_element *schema, struct strbuf *scratch) {
     int only = schema_short_row(schema);
     strbuf_format(out, "\n## %s\n\n%s\n\n", schema->name, schema->doc);
@@ -125,9 +132,11 @@ static void put_element(struct strbuf *out, const struct schema_element *schema,
     strbuf_cstr(out, "| attribute | YAML | XML | value | default | meaning |\n|---|---|---|---|---|---|\n");
     for (uint32_t i = 0; i < schema->row_count; i++)
         put_row(out, schema, i, scratch);
-    strbuf_cstr(out, "\n```yaml\n");
+    // No row says what its example is used for.
+    const char *mark = has_aside(schema) ? "<!-- test: finds W205 -->\n" : "";
+    strbuf_format(out, "\n%s```yaml\n", mark);
     emit_yaml_example(schema, out);
-    strbuf_cstr(out, "```\n\n```xml\n");
+    strbuf_format(out, "```\n\n%s```xml\n", mark);
     emit_xml_example(schema, out);
     strbuf_cstr(out, "```\n");
 }

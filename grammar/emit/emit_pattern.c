@@ -34,7 +34,11 @@ static struct pattern *wrap(struct builder *b, struct pattern *parent, bool need
 
 // ---- attributes
 
+// A number, or an expression in its place.
 static void add_number(struct builder *b, struct pattern *parent, const struct schema_row *row) {
+    parent = wrap(b, parent, !row->plain, PATTERN_CHOICE);
+    if (!row->plain)
+        add(b, parent, PATTERN_TYPE, "expression", NULL);
     add(b, parent, PATTERN_NUMBER, schema_range_info(row->range)->name, NULL);
 }
 
@@ -49,7 +53,9 @@ static void add_text(struct builder *b, struct pattern *parent, enum schema_text
 static void add_values(struct builder *b, struct pattern *parent, const struct schema_row *row) {
     switch (row->kind) {
     case SCHEMA_BOOLEAN:
+        parent = add(b, parent, PATTERN_CHOICE, NULL, NULL);
         add(b, parent, PATTERN_TYPE, "boolean", NULL);
+        add(b, parent, PATTERN_TYPE, "expression", NULL);
         break;
     case SCHEMA_WORD:
         parent = add(b, parent, PATTERN_CHOICE, NULL, NULL);
@@ -80,6 +86,12 @@ static void add_attribute(struct builder *b, struct pattern *parent, const struc
     add_values(b, add(b, parent, PATTERN_ATTRIBUTE, row->name, row->doc), row);
 }
 
+static void add_hex(struct builder *b, struct pattern *parent) {
+    parent = add(b, parent, PATTERN_CHOICE, NULL, NULL);
+    add(b, parent, PATTERN_TYPE, "hex_color", NULL);
+    add(b, parent, PATTERN_TYPE, "expression", NULL);
+}
+
 static void add_components(struct builder *b, struct pattern *parent, const struct schema_row *row) {
     const char *const *names = schema_components(row->kind);
     parent = wrap(b, parent, row->kind == SCHEMA_COLOR, PATTERN_CHOICE);
@@ -89,8 +101,7 @@ static void add_components(struct builder *b, struct pattern *parent, const stru
         add_number(b, add(b, at, PATTERN_ATTRIBUTE, names[i], NULL), row);
     }
     if (row->kind == SCHEMA_COLOR)
-        add(b, add(b, parent, PATTERN_ATTRIBUTE, SCHEMA_HEX_ATTRIBUTE, NULL), PATTERN_TYPE, "hex_color",
-            NULL);
+        add_hex(b, add(b, parent, PATTERN_ATTRIBUTE, SCHEMA_HEX_ATTRIBUTE, NULL));
 }
 
 // ---- elements
@@ -126,9 +137,13 @@ static void add_row(struct builder *b, struct pattern *parent, const struct sche
         parent = add(b, parent, PATTERN_GROUP, NULL, NULL);
         parent->times = row->fixed_count;
     }
-    parent = wrap(b, parent, is_attribute && row->element, PATTERN_CHOICE);
+    const bool is_whole =
+        row->kind == SCHEMA_VECTOR && row->many == SCHEMA_ONE && !is_attribute && !row->plain;
+    parent = wrap(b, parent, (is_attribute || is_whole) && row->element, PATTERN_CHOICE);
     if (is_attribute)
         add_attribute(b, parent, row);
+    if (is_whole)
+        add(b, add(b, parent, PATTERN_ATTRIBUTE, row->name, NULL), PATTERN_TYPE, "expression", NULL);
     if (row->element)
         add_element(b, parent, row);
 }

@@ -51,6 +51,9 @@ static void text_definitions(struct emit_lines *w) {
     emit_open(w, "<define name=\"hex_color\">");
     emit_line(w, "<data type=\"string\"><param name=\"pattern\">" EMIT_HEX_PATTERN "</param></data>");
     emit_close(w, "define");
+    emit_open(w, "<define name=\"expression\">");
+    emit_line(w, "<data type=\"string\"><param name=\"pattern\">%s</param></data>", EMIT_EXPRESSION_PATTERN);
+    emit_close(w, "define");
     emit_open(w, "<define name=\"name\">");
     emit_line(w, "<data type=\"string\"><param name=\"pattern\">" EMIT_NAME_PATTERN "</param></data>");
     emit_close(w, "define");

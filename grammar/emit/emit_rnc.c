@@ -53,6 +53,7 @@ static void number_definitions(struct emit_lines *w) {
 static void text_definitions(struct emit_lines *w) {
     emit_line(w, "boolean = xsd:string \"true\" | xsd:string \"false\"");
     emit_line(w, "hex_color = xsd:string { pattern = \"" EMIT_HEX_PATTERN "\" }");
+    emit_line(w, "expression = xsd:string { pattern = \"%s\" }", EMIT_EXPRESSION_PATTERN);
     emit_line(w, "name = xsd:string { pattern = \"" EMIT_NAME_PATTERN "\" }");
     emit_line(w, "some_text = xsd:string { minLength = \"1\" }");
 }

@@ -5,6 +5,7 @@
 #include "grammar/ir_value.h"
 #include "grammar/ir_values.h"
 #include "grammar/ir_walk.h"
+#include "grammar/print/print_value.h"
 #include "grammar/schema.h"
 
 struct json_writer {
@@ -29,7 +30,17 @@ static void put_key(struct json_writer *w, str key) {
 static void put_element(struct json_writer *w, const struct schema_element *schema, const void *element,
                         uint32_t indent);
 
-static void put_numbers(struct json_writer *w, const struct schema_row *row, const void *field) {
+static void put_number(struct json_writer *w, const struct print_value *v, int component, double number) {
+    const struct ir_formula *formula = print_formula(w->scene, v, component);
+    if (formula)
+        print_json_text(w->out, formula->text);
+    else
+        print_number(w->out, number);
+}
+
+static void put_numbers(struct json_writer *w, const struct print_value *v) {
+    const struct schema_row *row = v->row;
+    const void *field = print_field(v);
     double n[4];
     uint32_t count = ir_walk_components(row, field, n);
     if (row->kind == SCHEMA_COLOR && ((const struct ir_color *)field)->is_hex) {
@@ -38,19 +49,25 @@ static void put_numbers(struct json_writer *w, const struct schema_row *row, con
         strbuf_char(w->out, '"');
         return;
     }
-    if (print_is_uniform(row, field)) {
+    if (print_is_uniform(row, field) && !print_is_computed(w->scene, v)) {
         print_number(w->out, n[0]);
         return;
     }
     for (uint32_t i = 0; i < count; i++) {
         strbuf_cstr(w->out, i ? ", " : "[");
-        print_number(w->out, n[i]);
+        put_number(w, v, (int)i, n[i]);
     }
     strbuf_char(w->out, ']');
 }
 
-static void put_value(struct json_writer *w, const struct schema_row *row, const void *field,
-                      uint32_t indent) {
+static void put_value(struct json_writer *w, const struct print_value *v, uint32_t indent) {
+    const struct schema_row *row = v->row;
+    const void *field = print_field(v);
+    const struct ir_formula *formula = print_formula(w->scene, v, IR_FORMULA_WHOLE);
+    if (formula) {
+        print_json_text(w->out, formula->text);
+        return;
+    }
     switch (row->kind) {
     case SCHEMA_WORD:
         print_json_text(w->out, str_from(row->words[*(const unsigned *)field]));
@@ -66,7 +83,7 @@ static void put_value(struct json_writer *w, const struct schema_row *row, const
     case SCHEMA_POINT:
     case SCHEMA_COLOR:
     case SCHEMA_WEIGHTS:
-        put_numbers(w, row, field);
+        put_numbers(w, v);
         break;
     case SCHEMA_ELEMENT:
         put_element(w, row->child, field, indent);
@@ -107,17 +124,16 @@ static void put_list(struct json_writer *w, const struct schema_row *row, const 
 
 static void put_row(struct json_writer *w, const struct schema_row *row, const void *element,
                     uint32_t indent) {
-    const char *field = schema_field_const(row, element);
     if (row->kind == SCHEMA_LIST) {
         put_list(w, row, element, indent);
     } else if (row->many == SCHEMA_FIXED) {
         for (uint32_t i = 0; i < row->fixed_count; i++) {
             strbuf_cstr(w->out, i ? ", " : "[");
-            put_value(w, row, field + (size_t)i * row->size, indent);
+            put_value(w, &(struct print_value){row, element, (int)i}, indent);
         }
         strbuf_char(w->out, ']');
     } else {
-        put_value(w, row, field, indent);
+        put_value(w, &(struct print_value){row, element, -1}, indent);
     }
 }
 

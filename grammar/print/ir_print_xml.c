@@ -6,6 +6,7 @@
 #include "grammar/ir_walk.h"
 #include "grammar/print/ir_print_comment.h"
 #include "grammar/print/ir_print_row.h"
+#include "grammar/print/print_value.h"
 
 struct xml_writer {
     const struct ir_scene *scene;
@@ -27,7 +28,11 @@ struct xml_node {
     const char *unnamed; // the name that is not written; NULL: write every name
 };
 
-static bool value_is_attribute(const struct xml_writer *w, const struct schema_row *row, const void *field) {
+static bool value_is_attribute(const struct xml_writer *w, const struct print_value *v) {
+    const struct schema_row *row = v->row;
+    const void *field = print_field(v);
+    if (print_is_computed(w->scene, v))
+        return print_formula(w->scene, v, IR_FORMULA_WHOLE) != NULL;
     switch (row->kind) {
     case SCHEMA_COLOR:
         return ((const struct ir_color *)field)->is_hex || print_is_uniform(row, field);
@@ -40,7 +45,7 @@ static bool value_is_attribute(const struct xml_writer *w, const struct schema_r
     case SCHEMA_ELEMENT: {
         int only = ir_walk_short(w->scene, row->child, field);
         const struct schema_row *inner = only >= 0 ? &row->child->rows[only] : NULL;
-        return inner && value_is_attribute(w, inner, schema_field_const(inner, field));
+        return inner && value_is_attribute(w, &(struct print_value){inner, field, -1});
     }
     case SCHEMA_WEIGHTS:
     case SCHEMA_LIST:
@@ -52,11 +57,23 @@ static bool value_is_attribute(const struct xml_writer *w, const struct schema_r
 
 // Whether a written row goes into the start tag; the others are child elements.
 static bool is_attribute(const struct xml_writer *w, const struct schema_row *row, const void *element) {
-    return schema_is_attribute(row) && value_is_attribute(w, row, schema_field_const(row, element));
+    const struct print_value v = {row, element, -1};
+    // A whole vector that is computed is one.
+    if (row->kind == SCHEMA_VECTOR && row->many == SCHEMA_ONE &&
+        print_formula(w->scene, &v, IR_FORMULA_WHOLE))
+        return true;
+    return schema_is_attribute(row) && value_is_attribute(w, &v);
 }
 
-static void put_attribute_value(const struct schema_row *row, const void *field, struct strbuf *out) {
+static void put_attribute_value(const struct xml_writer *w, const struct print_value *v, struct strbuf *out) {
+    const struct schema_row *row = v->row;
+    const void *field = print_field(v);
+    const struct ir_formula *formula = print_formula(w->scene, v, IR_FORMULA_WHOLE);
     double n[4];
+    if (formula) {
+        print_xml_text(out, formula->text);
+        return;
+    }
     switch (row->kind) {
     case SCHEMA_TEXT:
         print_xml_text(out, *(const str *)field);
@@ -77,7 +94,7 @@ static void put_attribute_value(const struct schema_row *row, const void *field,
         break;
     case SCHEMA_ELEMENT: {
         const struct schema_row *inner = &row->child->rows[schema_short_row(row->child)];
-        put_attribute_value(inner, schema_field_const(inner, field), out);
+        put_attribute_value(w, &(struct print_value){inner, field, -1}, out);
         break;
     }
     default:
@@ -101,15 +118,24 @@ static void put_attributes(const struct xml_writer *w, const struct xml_node *no
             str_equal_cstr(ir_walk_key(node->schema, node->element), node->unnamed))
             continue;
         put_pair(out, row->name);
-        put_attribute_value(row, schema_field_const(row, node->element), out);
+        put_attribute_value(w, &(struct print_value){row, node->element, -1}, out);
         strbuf_char(out, '"');
     }
 }
 
 // The components of a vector, colour or weights as attributes. Weights that are 0 may be left out.
-static void put_components(const struct schema_row *row, const void *field, struct strbuf *out) {
+static void put_components(const struct xml_writer *w, const struct print_value *v, struct strbuf *out) {
+    const struct schema_row *row = v->row;
+    const void *field = print_field(v);
     const char *const *names = schema_components(row->kind);
     double n[4];
+    const struct ir_formula *whole = print_formula(w->scene, v, IR_FORMULA_WHOLE);
+    if (whole) {
+        put_pair(out, SCHEMA_HEX_ATTRIBUTE);
+        print_xml_text(out, whole->text);
+        strbuf_char(out, '"');
+        return;
+    }
     if (row->kind == SCHEMA_COLOR && ((const struct ir_color *)field)->is_hex) {
         put_pair(out, SCHEMA_HEX_ATTRIBUTE);
         print_hex_color(out, ((const struct ir_color *)field)->hex);
@@ -119,12 +145,16 @@ static void put_components(const struct schema_row *row, const void *field, stru
     uint32_t count = ir_walk_components(row, field, n);
     bool all_zero = true;
     for (uint32_t i = 0; i < count; i++)
-        all_zero = all_zero && n[i] == 0;
+        all_zero = all_zero && n[i] == 0 && !print_formula(w->scene, v, (int)i);
     for (uint32_t i = 0; i < count; i++) {
-        if (row->kind == SCHEMA_WEIGHTS && n[i] == 0 && !(all_zero && i == 0))
+        const struct ir_formula *formula = print_formula(w->scene, v, (int)i);
+        if (row->kind == SCHEMA_WEIGHTS && n[i] == 0 && !formula && !(all_zero && i == 0))
             continue;
         put_pair(out, names[i]);
-        print_number(out, n[i]);
+        if (formula)
+            print_xml_text(out, formula->text);
+        else
+            print_number(out, n[i]);
         strbuf_char(out, '"');
     }
 }
@@ -139,11 +169,12 @@ static const struct schema_row *own_components(const struct xml_writer *w, const
 typedef void xml_visit(struct xml_writer *w, const struct xml_node *node, uint32_t indent,
                        struct strbuf *out);
 
-static void put_leaf(const struct schema_row *row, const void *field, uint32_t indent, struct strbuf *out) {
+static void put_leaf(const struct xml_writer *w, const struct print_value *v, uint32_t indent,
+                     struct strbuf *out) {
     strbuf_repeat(out, ' ', indent);
     strbuf_char(out, '<');
-    strbuf_cstr(out, row->element);
-    put_components(row, field, out);
+    strbuf_cstr(out, v->row->element);
+    put_components(w, v, out);
     strbuf_cstr(out, "/>");
 }
 
@@ -165,7 +196,8 @@ static void put_children(struct xml_writer *w, const struct schema_row *row, con
         visit(w, &(struct xml_node){row->element, row->child, body, NULL}, indent, out);
     } else {
         for (uint32_t i = 0; i < (row->many == SCHEMA_FIXED ? row->fixed_count : 1); i++) {
-            put_leaf(row, field + (size_t)i * row->size, indent, out);
+            put_leaf(w, &(struct print_value){row, element, row->many == SCHEMA_FIXED ? (int)i : -1}, indent,
+                     out);
             strbuf_cstr(out, line_end);
         }
     }
@@ -185,7 +217,7 @@ static bool begin_element(struct xml_writer *w, const struct xml_node *node, str
     strbuf_char(out, '<');
     strbuf_cstr(out, node->tag);
     if (own) {
-        put_components(own, schema_field_const(own, node->element), out);
+        put_components(w, &(struct print_value){own, node->element, -1}, out);
     } else {
         put_attributes(w, node, out);
         if (has_children(w, node)) {
@@ -337,6 +369,6 @@ void print_xml_row(const struct ir_scene *scene, const struct schema_row *row, c
     }
     strbuf_cstr(out, row->name);
     strbuf_cstr(out, "=\"");
-    put_attribute_value(row, schema_field_const(row, element), out);
+    put_attribute_value(&w, &(struct print_value){row, element, -1}, out);
     strbuf_char(out, '"');
 }

@@ -7,6 +7,7 @@
 #include "grammar/ir_walk.h"
 #include "grammar/print/ir_print_comment.h"
 #include "grammar/print/ir_print_row.h"
+#include "grammar/print/print_value.h"
 
 struct yaml_writer {
     const struct ir_scene *scene;
@@ -59,26 +60,43 @@ static void flow_list(struct yaml_writer *w, const struct schema_row *row, const
     strbuf_char(out, map ? '}' : ']');
 }
 
-static void flow_numbers(const struct schema_row *row, const void *field, struct strbuf *out) {
+static void flow_number(struct yaml_writer *w, const struct print_value *v, int component, double number,
+                        struct strbuf *out) {
+    const struct ir_formula *formula = print_formula(w->scene, v, component);
+    if (formula)
+        print_yaml_text(out, formula->text, true);
+    else
+        print_number(out, number);
+}
+
+static void flow_numbers(struct yaml_writer *w, const struct print_value *v, struct strbuf *out) {
+    const struct schema_row *row = v->row;
+    const void *field = print_field(v);
     double n[4];
     uint32_t count = ir_walk_components(row, field, n);
     if (row->kind == SCHEMA_COLOR && ((const struct ir_color *)field)->is_hex) {
         strbuf_char(out, '"');
         print_hex_color(out, ((const struct ir_color *)field)->hex);
         strbuf_char(out, '"');
-    } else if (print_is_uniform(row, field)) {
+    } else if (print_is_uniform(row, field) && !print_is_computed(w->scene, v)) {
         print_number(out, n[0]);
     } else {
         for (uint32_t i = 0; i < count; i++) {
             strbuf_cstr(out, i ? ", " : "[");
-            print_number(out, n[i]);
+            flow_number(w, v, (int)i, n[i], out);
         }
         strbuf_char(out, ']');
     }
 }
 
-static void flow_value(struct yaml_writer *w, const struct schema_row *row, const void *field,
-                       struct strbuf *out) {
+static void flow_value(struct yaml_writer *w, const struct print_value *v, struct strbuf *out) {
+    const struct schema_row *row = v->row;
+    const void *field = print_field(v);
+    const struct ir_formula *formula = print_formula(w->scene, v, IR_FORMULA_WHOLE);
+    if (formula) {
+        print_yaml_text(out, formula->text, true);
+        return;
+    }
     switch (row->kind) {
     case SCHEMA_TEXT:
         if (row->text == SCHEMA_TEXT_VALUES)
@@ -91,7 +109,7 @@ static void flow_value(struct yaml_writer *w, const struct schema_row *row, cons
     case SCHEMA_POINT:
     case SCHEMA_COLOR:
     case SCHEMA_WEIGHTS:
-        flow_numbers(row, field, out);
+        flow_numbers(w, v, out);
         break;
     case SCHEMA_ELEMENT:
         flow_item(w, row->child, field, out);
@@ -111,18 +129,17 @@ static void flow_value(struct yaml_writer *w, const struct schema_row *row, cons
 // A row's value; several side by side make a list.
 static void flow_row(struct yaml_writer *w, const struct schema_row *row, const void *element,
                      struct strbuf *out) {
-    const char *field = schema_field_const(row, element);
     if (row->kind == SCHEMA_LIST) {
         flow_list(w, row, element, out);
         return;
     }
     if (row->many != SCHEMA_FIXED) {
-        flow_value(w, row, field, out);
+        flow_value(w, &(struct print_value){row, element, -1}, out);
         return;
     }
     for (uint32_t i = 0; i < row->fixed_count; i++) {
         strbuf_cstr(out, i ? ", " : "[");
-        flow_value(w, row, field + (size_t)i * row->size, out);
+        flow_value(w, &(struct print_value){row, element, (int)i}, out);
     }
     strbuf_char(out, ']');
 }

@@ -44,6 +44,7 @@ struct bind_context {
     const struct schema_index *index;
     struct bind_texts *texts; // in `arena`
     const struct tree *tree;
+    bool plain;         // nothing may be computed: an expression is a mistake
     bool other_version; // the file says that it is written in a version that this program does not know
 };
 
@@ -261,6 +262,18 @@ void bind_help_shape(struct bind_context *context, struct bind_subject subject, 
 // The same, but adds nothing if they cannot be told apart. For a list its text is used. false: nothing was
 // added.
 bool bind_help_numbers(struct bind_context *context, struct bind_subject subject, tree_index node);
+
+// bind_formula.c
+// Takes text as an expression, if the row may be computed and the text can be meant as one. false: it
+// cannot, and nothing is reported.
+bool bind_formula(struct bind_context *context, struct bind_subject subject, tree_index node);
+// An expression that YAML has cut into items at its commas: takes all of them. The last of them, or 0: `item`
+// does not begin one.
+tree_index bind_torn_item(struct bind_context *context, struct bind_subject subject, tree_index item);
+// The same in a map in braces, where the pieces became keys: reports it, with quotes as the fix, and marks
+// the keys as known. false: it is not so.
+bool bind_torn_pair(struct bind_context *context, struct bind_frame *frame, uint32_t row, tree_index map,
+                    tree_index key);
 
 // bind_values.c: text of SCHEMA_TEXT_VALUES. false: reported or known.
 bool bind_values(struct bind_context *context, struct bind_subject subject, tree_index node, str *out);

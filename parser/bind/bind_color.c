@@ -146,6 +146,10 @@ bool bind_color_text(struct bind_context *context, struct bind_subject subject, 
     }
     double value = 0;
     enum number_status status = number_parse(text, &value);
+    if (status != NUMBER_OK && bind_formula(context, subject, node)) {
+        *out = (struct ir_color){0};
+        return true;
+    }
     if (looks_like_color(text, status, tree_node(context->tree, node)->style == TREE_QUOTED))
         return bind_bad_color(context, subject, node);
     if (!bind_number(context, subject, node, &value))

@@ -5,6 +5,7 @@
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"
 
+#include "core/expression.h"
 #include "core/number.h"
 #include "core/vec3.h"
 
@@ -36,6 +37,13 @@ static void help_without_alpha(struct bind_context *context, tree_index node) {
     diag_fix(context->sink, false, tree_span(context->tree, node), list);
 }
 
+static uint32_t items_between(const struct bind_context *context, tree_index first, tree_index last) {
+    uint32_t count = 0;
+    for (; first != last; first = tree_next(context->tree, first))
+        count++;
+    return count;
+}
+
 static bool bind_list(struct bind_context *context, struct bind_subject subject, tree_index node,
                       double out[COMPONENTS_MAX]) {
     uint32_t wanted = schema_component_count(subject.row->kind);
@@ -47,6 +55,13 @@ static bool bind_list(struct bind_context *context, struct bind_subject subject,
          item = tree_next(context->tree, item), i++) {
         double beyond;
         struct bind_subject of = i < wanted ? component_of(subject, i) : subject;
+        const tree_index torn = i < wanted ? bind_torn_item(context, of, item) : 0;
+        if (torn) {
+            out[i] = 0;
+            count -= items_between(context, item, torn);
+            item = torn;
+            continue;
+        }
         bool is_good = bind_number(context, of, item, i < wanted ? &out[i] : &beyond);
         good = is_good && good;
         if (is_good || !is_several(context, item))
@@ -225,7 +240,8 @@ static bool bind_composite(struct bind_context *context, struct bind_subject sub
     double numbers[COMPONENTS_MAX] = {0};
     tree_index hex = hex_attribute(context, row, node);
     if (hex) {
-        bool good = str_starts_with(tree_text(context->tree, hex), STR("#"));
+        const str text = tree_text(context->tree, hex);
+        bool good = str_starts_with(text, STR("#")) || expression_is_meant(text);
         return good ? bind_color_text(context, subject, hex, out) : bind_bad_color(context, subject, hex);
     }
     if (n->kind == TREE_LIST) {
@@ -238,6 +254,9 @@ static bool bind_composite(struct bind_context *context, struct bind_subject sub
             return false;
     } else if (n->kind == TREE_SCALAR && row->kind == SCHEMA_COLOR && !(n->flags & TREE_BAD)) {
         return bind_color_text(context, subject, node, out);
+    } else if (n->kind == TREE_SCALAR && row->kind == SCHEMA_VECTOR && !(n->flags & TREE_BAD) &&
+               bind_formula(context, subject, node)) {
+        numbers[0] = 0;
     } else if (n->kind == TREE_SCALAR && row->fill && !(n->flags & TREE_BAD)) {
         if (!bind_number(context, subject, node, &numbers[0]))
             return false;

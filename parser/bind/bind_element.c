@@ -335,7 +335,8 @@ void bind_keys(struct bind_context *context, struct bind_frame *frame, tree_inde
         int row = find_row_once(context, frame, key, number, known, &single);
         if (row >= 0 && !first && !bad) {
             bind_loose_columns(context, frame, &frame->schema->rows[row], key);
-            bad = bind_loose_numbers(context, frame, (uint32_t)row, node, key);
+            bad = bind_loose_numbers(context, frame, (uint32_t)row, node, key) ||
+                  bind_torn_pair(context, frame, (uint32_t)row, node, key);
         }
         if (row >= 0 && comes_first(&frame->schema->rows[row]) != first)
             continue;

@@ -47,6 +47,7 @@ static bool is_scene(struct bind_context *context, const struct bind_frame *fram
 struct ir_scene *bind_new_scene(struct bind_context *context) {
     struct ir_scene *scene = ARENA_NEW(context->arena, struct ir_scene);
     schema_index_defaults(context->index, &SCHEMA_SCENE, scene);
+    scene->formulas = context->origin->formulas;
     return scene;
 }
 

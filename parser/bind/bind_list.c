@@ -2,6 +2,7 @@
 #include "parser/bind/bind.h"
 
 #include "grammar/ir.h"
+#include "grammar/ir_formula.h"
 
 #include <assert.h>
 #include <string.h>
@@ -71,6 +72,7 @@ void bind_clear_row(struct arena *scratch, struct ir_origin *origin, const struc
     struct ir_head *head = memory;
     head->written &= ~bind_bit(row);
     head->poisoned &= ~bind_bit(row);
+    ir_formula_drop(origin->arena, origin->formulas, head, r, -1, IR_FORMULA_WHOLE);
     ir_origin_remove_row(origin, head->origin, row);
 }
 

@@ -1,4 +1,5 @@
 // What must be known before a row is bound: which row a key names, where it is, whether it is given twice.
+#include "core/expression.h"
 #include "diag/codes/binding.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
@@ -9,7 +10,18 @@ int bind_find_row(const struct bind_context *context, const struct schema_elemen
                                                   [TREE_KEY_ATTRIBUTE] = SCHEMA_NAME_ATTRIBUTE,
                                                   [TREE_KEY_CHILD] = SCHEMA_NAME_CHILD};
     enum schema_name_kind kind = kinds[tree_node(context->tree, key)->key];
-    return schema_index_find(context->index, schema, kind, tree_text(context->tree, key), is_single);
+    const str name = tree_text(context->tree, key);
+    const int row = schema_index_find(context->index, schema, kind, name, is_single);
+    if (row >= 0 || kind != SCHEMA_NAME_ATTRIBUTE)
+        return row;
+    // A whole vector, computed, is an attribute.
+    const int whole = schema_find_row(schema, name);
+    *is_single = false;
+    return whole >= 0 && schema->rows[whole].kind == SCHEMA_VECTOR &&
+                   schema->rows[whole].many == SCHEMA_ONE &&
+                   expression_is_meant(tree_text(context->tree, tree_value(context->tree, key)))
+               ? whole
+               : -1;
 }
 
 struct bind_given bind_given_by(const struct bind_context *context, tree_index key) {

@@ -308,6 +308,10 @@ bool bind_number(struct bind_context *context, struct bind_subject subject, tree
     bool is_quoted = tree_node(context->tree, node)->style == TREE_QUOTED;
     if (is_quoted && status == NUMBER_OK)
         return quoted(context, subject, node, integer ? "a whole number" : "a number");
+    if (status != NUMBER_OK && bind_formula(context, subject, node)) {
+        *out = 0;
+        return true;
+    }
     if (status != NUMBER_OK)
         return bad_number(context, subject, node, status);
     if (!schema_in_range(subject.row->range, value))
@@ -327,6 +331,10 @@ static bool bind_boolean(struct bind_context *context, struct bind_subject subje
         if (tree_node(context->tree, node)->style == TREE_QUOTED)
             return quoted(context, subject, node, "a boolean");
         *out = is_true;
+        return true;
+    }
+    if (bind_formula(context, subject, node)) {
+        *out = false;
         return true;
     }
     str s = say_subject(context->scratch, subject);

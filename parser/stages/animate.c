@@ -7,6 +7,7 @@
 #include "core/heap.h"
 #include "parser/bind/say.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,6 +19,8 @@ enum {
 
 static void set_value(const struct moving *m, const double value[CURVE_WIDTH_MOST]) {
     memcpy(m->field, value, m->width * sizeof *value);
+    if (m->parameter && m->width == 3)
+        m->field[3] = -1; // no colour as written
     if (m->color)
         m->color->is_hex = false;
 }
@@ -33,6 +36,17 @@ static void forget_animation(struct loader *loader, struct ir_scene *scene) {
     ir_origin_remove_row(&loader->output->origin, scene->head.origin, row);
 }
 
+// Parameters that tracks move, in the frame of the evaluation.
+static void move_parameters(void *context, struct evaluation *e) {
+    const struct motion *motion = context;
+    for (uint32_t i = 0; i < motion->count; i++) {
+        double value[CURVE_WIDTH_MOST];
+        if (motion->items[i].parameter &&
+            moving_value(motion, &motion->items[i], (int32_t)e->at.frame, value))
+            set_value(&motion->items[i], value);
+    }
+}
+
 static void note_place(const struct motion *motion, struct moving *m, int32_t frame) {
     struct ir_origin *places = &motion->loader->output->origin;
     override_mark(m->path, m->frame);
@@ -43,11 +57,15 @@ static void note_place(const struct motion *motion, struct moving *m, int32_t fr
                                              .value = moving_place(motion, m, frame)});
 }
 
+static bool moves_by_itself(const struct motion *motion) {
+    return motion->evaluation && motion->evaluation->moving.count;
+}
+
 static void take_frame(struct motion *motion) {
     const struct ir_animation *animation = motion->animation;
     struct diag_sink *sink = motion->loader->input->sink;
     const int32_t frame = animation->frame;
-    if (animation->tracks.count == 0) {
+    if (animation->tracks.count == 0 && !moves_by_itself(motion)) {
         diag_add(
             sink, DIAG_FRAME_BEYOND,
             ir_place_value(&motion->loader->output->origin, &animation->head, &SCHEMA_ANIMATION, "frame"),
@@ -62,13 +80,26 @@ static void take_frame(struct motion *motion) {
             animation->frames == 1 ? "" : "s", (int)animation->frames - 1);
         return;
     }
+    struct evaluation *e = motion->evaluation;
+    struct ir_origin *origin = &motion->loader->output->origin;
+    if (e) {
+        e->move = move_parameters;
+        e->motion = motion;
+        e->suffix = arena_format(&motion->loader->scratch, ", in frame %d", (int)frame).ptr;
+        evaluation_set_frame(e, frame, frame / animation->rate);
+    }
     for (uint32_t i = 0; i < motion->count; i++) {
         struct moving *m = &motion->items[i];
         double value[CURVE_WIDTH_MOST];
-        if (!moving_value(motion, m, frame, value) || !moving_fits(motion, m, frame, value))
+        if (m->parameter || !moving_value(motion, m, frame, value) || !moving_fits(motion, m, frame, value))
             continue;
+        ir_formula_drop(origin->arena, origin->formulas, bind_head(m->frame), m->row, m->slot, m->component);
         set_value(m, value);
         note_place(motion, m, frame);
+    }
+    if (e) {
+        evaluate_formulas(e);
+        evaluation_stop(e);
     }
 }
 
@@ -78,6 +109,8 @@ static uint64_t cost_of_frame(const struct motion *motion) {
     uint64_t cost = (uint64_t)motion->element_count * ELEMENT_COST;
     for (uint32_t i = 0; i < motion->count; i++)
         cost += TRACK_COST + 2 * motion->items[i].cost; // its value: for itself, and for its element
+    for (uint32_t i = 0; motion->evaluation && i < motion->evaluation->moving.count; i++)
+        cost += TRACK_COST + 2 * motion->evaluation->moving.items[i].expression.cost;
     return cost;
 }
 
@@ -98,6 +131,25 @@ static void choose_step(struct motion *motion) {
              (int)step, (int)frames, (unsigned long long)cost, (unsigned long long)most);
     diag_help(loader->input->sink, "--limit animation-operations=%llu checks all of them",
               (unsigned long long)(frames * cost));
+}
+
+// Checks that all that is computed has a value in all frames, and one that fits: the first frame in which it
+// has not is reported.
+static bool look_at_formulas(const struct motion *motion) {
+    struct evaluation *e = motion->evaluation;
+    bool good = true;
+    if (!e)
+        return true;
+    e->move = move_parameters;
+    e->motion = (void *)motion;
+    for (int32_t frame = 0; frame < motion->animation->frames && good; frame += motion->step) {
+        char suffix[40];
+        snprintf(suffix, sizeof suffix, ", in frame %d", (int)frame);
+        e->suffix = frame ? suffix : "";
+        good = evaluation_set_frame(e, frame, frame / motion->animation->rate) && evaluate_moving(e);
+    }
+    e->suffix = "";
+    return good;
 }
 
 // Checks that the track has a value in all frames, and a valid one.
@@ -137,9 +189,8 @@ static void copy_first_error(const struct motion *motion, const struct diag_sink
     }
 }
 
-// The top-level element, such as a camera or a material, in which a track moves something.
-static const struct bind_frame *element_of(const struct moving *m) {
-    const struct bind_frame *frame = m->frame;
+// The top-level element, such as a camera or a material, in which something moves.
+static const struct bind_frame *element_of(const struct bind_frame *frame) {
     while (frame->parent && frame->parent->parent)
         frame = frame->parent;
     return frame;
@@ -154,13 +205,18 @@ static int compare_elements(const void *a, const void *b) {
 
 // Finds the elements in which something moves, each once: all others keep or break rules in all frames alike.
 static void find_elements(struct motion *motion) {
-    uint32_t count = 0;
-    motion->elements = ARENA_ARRAY(&motion->loader->scratch, const struct bind_frame *, motion->count + 1);
+    const struct evaluation *e = motion->evaluation;
+    uint32_t count = 0, all = 0;
+    motion->elements = ARENA_ARRAY(&motion->loader->scratch, const struct bind_frame *,
+                                   (size_t)motion->count + (e ? e->moving.count : 0) + 1);
     for (uint32_t i = 0; i < motion->count; i++)
-        motion->elements[i] = element_of(&motion->items[i]);
-    if (motion->count)
-        qsort(motion->elements, motion->count, sizeof *motion->elements, compare_elements);
-    for (uint32_t i = 0; i < motion->count; i++)
+        if (!motion->items[i].parameter)
+            motion->elements[all++] = element_of(motion->items[i].frame);
+    for (uint32_t i = 0; e && i < e->moving.count; i++)
+        motion->elements[all++] = element_of(e->moving.items[i].frame);
+    if (all)
+        qsort(motion->elements, all, sizeof *motion->elements, compare_elements);
+    for (uint32_t i = 0; i < all; i++)
         if (count == 0 || motion->elements[i]->memory != motion->elements[count - 1]->memory)
             motion->elements[count++] = motion->elements[i];
     motion->element_count = count;
@@ -174,6 +230,7 @@ static void look_at_elements(const struct motion *motion) {
     double(*saved)[CURVE_WIDTH_MOST] =
         arena_alloc(input->arena, heap_times(motion->count + 1, sizeof *saved));
     bool *was_hex = ARENA_ARRAY(input->arena, bool, motion->count + 1);
+    struct evaluation *e = motion->evaluation;
     struct parser_input aside = *input;
     struct diag_sink found;
     diag_sink_init(&found);
@@ -185,6 +242,10 @@ static void look_at_elements(const struct motion *motion) {
     }
     for (int32_t frame = 0; frame < motion->animation->frames && found.errors == 0; frame += motion->step) {
         double value[CURVE_WIDTH_MOST];
+        if (e) {
+            evaluation_set_frame(e, frame, frame / motion->animation->rate);
+            evaluate_moving(e);
+        }
         for (uint32_t i = 0; i < motion->count; i++)
             if (moving_value(motion, &motion->items[i], frame, value))
                 set_value(&motion->items[i], value);
@@ -210,34 +271,67 @@ static bool is_frame_of_file(const struct loader *loader, const struct ir_animat
     return loader->input->sources->items[at.source].kind != SOURCE_KIND_OPTION;
 }
 
+// Values without a frame: the formulas' at frame 0.
+static void take_still(struct evaluation *e) {
+    e->move = NULL;
+    for (uint32_t i = 0; i < e->count; i++)
+        e->items[i].is_moved = false;
+    evaluation_set_frame(e, 0, 0);
+    evaluate_formulas(e);
+}
+
+static void take_still_again(struct evaluation *e) {
+    e->is_quiet = true;
+    take_still(e);
+    e->is_quiet = false;
+}
+
+static void move_scene(struct motion *motion, bool has_frame) {
+    struct loader *loader = motion->loader;
+    const struct ir_animation *animation = motion->animation;
+    const struct diag_sink *sink = loader->input->sink;
+    const uint32_t errors = sink->errors;
+    motion_find(motion);
+    const bool moves = animation->tracks.count || moves_by_itself(motion);
+    if (moves) {
+        loader->output->origin.motion.frames = animation->frames;
+        loader->output->origin.motion.rate = animation->rate;
+    }
+    if (moves && (!has_frame || is_frame_of_file(loader, animation))) {
+        find_elements(motion);
+        choose_step(motion);
+        for (uint32_t i = 0; i < motion->count; i++)
+            look_at_track(motion, &motion->items[i]);
+        if (sink->errors == errors)
+            look_at_formulas(motion);
+        if (sink->errors == errors && errors == 0)
+            look_at_elements(motion);
+    }
+    if (has_frame)
+        take_frame(motion);
+}
+
 void animate_scene(struct loader *loader, struct ir_scene *scene) {
     const struct ir_animation *animation = &scene->animation;
     const uint32_t row = (uint32_t)schema_find_row(&SCHEMA_SCENE, STR("animation"));
     const uint32_t frame = (uint32_t)schema_find_row(&SCHEMA_ANIMATION, STR("frame"));
-    const struct diag_sink *sink = loader->input->sink;
-    struct motion motion = {.loader = loader, .scene = scene, .animation = animation};
-    if (!(scene->head.written & bind_bit(row)) || (scene->head.poisoned & bind_bit(row)))
-        return;
-    const uint32_t errors = sink->errors;
-    const bool is_good = !animation->head.poisoned;
-    const bool has_frame = animation->head.written & bind_bit(frame);
-    if (is_good)
-        motion_find(&motion);
-    if (is_good && animation->tracks.count) {
-        loader->output->origin.motion.frames = animation->frames;
-        loader->output->origin.motion.rate = animation->rate;
+    struct evaluation *e = evaluation_begin(loader, scene);
+    struct motion motion = {.loader = loader, .scene = scene, .animation = animation, .evaluation = e};
+    if (e)
+        take_still(e);
+    if ((scene->head.written & bind_bit(row)) && !(scene->head.poisoned & bind_bit(row))) {
+        const bool has_frame = animation->head.written & bind_bit(frame);
+        if (!animation->head.poisoned)
+            move_scene(&motion, has_frame);
+        // Frames that were looked at left their values.
+        if (e && !has_frame)
+            take_still_again(e);
+        if (has_frame)
+            forget_animation(loader, scene);
     }
-    if (is_good && animation->tracks.count && (!has_frame || is_frame_of_file(loader, animation))) {
-        find_elements(&motion);
-        choose_step(&motion);
-        for (uint32_t i = 0; i < motion.count; i++)
-            look_at_track(&motion, &motion.items[i]);
-        if (sink->errors == errors && errors == 0)
-            look_at_elements(&motion);
+    if (e) {
+        evaluation_keep(e);
+        evaluation_tell_unused(e);
     }
-    if (is_good && has_frame)
-        take_frame(&motion);
-    if (has_frame)
-        forget_animation(loader, scene);
     arena_finish(&loader->scratch);
 }

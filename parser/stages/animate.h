@@ -7,6 +7,7 @@
 #include "core/curve.h"
 #include "core/expression.h"
 #include "grammar/ir.h"
+#include "parser/stages/evaluate.h"
 #include "parser/stages/override.h"
 
 // A compiled text of one or more numbers.
@@ -24,11 +25,13 @@ struct moving {
     struct bind_frame *frame;     // the element whose row moves
     const struct schema_row *row; // a number, vector, pair, colour or weights
     uint32_t row_number;
+    int slot, component;         // as a formula there has them (grammar/ir_formula.h)
     struct bind_subject subject; // for messages
     double *field;               // in the scene: `width` numbers side by side
     struct ir_color *color;      // the colour that the field is all of; NULL: none
     uint32_t width;
     bool fills;         // one number stands for all
+    uint32_t parameter; // 1 + its index in the scene's list; 0: a value of the scene
     struct curve curve; // of keys; count 0: the track's value is an expression
     struct moving_text text;
     uint64_t cost; // cost of its value in a frame, in additions
@@ -38,6 +41,7 @@ struct motion {
     struct loader *loader;
     struct ir_scene *scene;
     const struct ir_animation *animation;
+    struct evaluation *evaluation; // NULL: nothing else is computed
     struct moving *items;
     uint32_t count;
     struct override_index index; // index of the names in the tracks

@@ -100,7 +100,62 @@ static bool take_whole(const struct motion *motion, struct moving *m, char *fiel
     return true;
 }
 
+// A component of a value that is computed as a whole is not there, and what moves by itself is moved once.
+static bool is_free(const struct motion *motion, const struct moving *m,
+                    const struct override_target *target) {
+    const struct ir_formulas *formulas = motion->scene->formulas;
+    const bool whole = target->kind == OVERRIDE_ROW || target->component == OVERRIDE_WHOLE_SLOT;
+    for (uint32_t i = formulas ? bind_head(m->frame)->formulas : 0; i; i = formulas->items[i].next) {
+        const struct ir_formula *f = &formulas->items[i];
+        struct expression expression;
+        struct expression_fault fault;
+        if (f->row != m->row || (target->slot >= 0 && f->slot != target->slot))
+            continue;
+        if (!whole && f->component == IR_FORMULA_WHOLE)
+            return cannot_move(motion, m, "is computed as a whole: move all of it");
+        if ((!whole && f->component != (int)target->component) ||
+            !expression_compile(f->text, &motion->evaluation->scope, scratch(motion), &expression, &fault) ||
+            !expression.moves)
+            continue;
+        diag_add(sink(motion), DIAG_TRACK_TWICE, m->path->path, "%.*s moves by itself already",
+                 STR_ARG(say_subject(scratch(motion), m->subject)));
+        diag_note(sink(motion), f->at, "its value depends on the frame");
+        return false;
+    }
+    return true;
+}
+
+// A parameter's value in frames is among those that expressions see.
+static bool take_parameter(const struct motion *motion, struct moving *m, uint32_t index) {
+    struct parameter *p = &motion->evaluation->items[index];
+    m->row_number = (uint32_t)schema_short_row(&SCHEMA_PARAMETER);
+    m->row = &SCHEMA_PARAMETER.rows[m->row_number];
+    m->subject = bind_subject(m->frame, NULL);
+    if (p->state != PARAMETER_DONE)
+        return false; // reported
+    if (p->type == EXPRESSION_TRUTH)
+        return cannot_move(motion, m, "is true or false, which cannot move");
+    m->parameter = index + 1;
+    m->width = p->type == EXPRESSION_TRIPLE ? 3 : 1;
+    m->field = motion->evaluation->values + (size_t)EXPRESSION_WIDTH * index;
+    p->is_used = true;
+    p->is_moved = true;
+    return true;
+}
+
 static bool take_target(const struct motion *motion, struct moving *m, const struct override_target *target) {
+    const struct schema_row *list = &target->frame->schema->rows[target->row];
+    if (target->kind == OVERRIDE_ENTRY && list->child == &SCHEMA_PARAMETER) {
+        struct bind_frame *frame = ARENA_NEW(scratch(motion), struct bind_frame);
+        *frame = (struct bind_frame){.parent = target->frame,
+                                     .schema = &SCHEMA_PARAMETER,
+                                     .via = list,
+                                     .memory = &motion->scene->parameters.items[target->entry],
+                                     .name = motion->scene->parameters.items[target->entry].name,
+                                     .label = m->path->path};
+        m->frame = frame;
+        return take_parameter(motion, m, target->entry);
+    }
     m->frame = target->frame;
     m->row_number = target->row;
     m->row = &m->frame->schema->rows[target->row];
@@ -115,6 +170,12 @@ static bool take_target(const struct motion *motion, struct moving *m, const str
         return not_in_use(motion, m);
     if (bind_head(m->frame)->poisoned & bind_bit(m->row_number))
         return false; // reported
+    m->slot = target->slot;
+    m->component = target->kind == OVERRIDE_ROW || target->component == OVERRIDE_WHOLE_SLOT
+                       ? IR_FORMULA_WHOLE
+                       : (int)target->component;
+    if (!is_free(motion, m, target))
+        return false;
     char *field = schema_field(m->row, m->frame->memory);
     if (target->slot > 0)
         field += (size_t)target->slot * m->row->size;
@@ -145,7 +206,12 @@ static bool read_hex(str text, uint32_t *hex) {
 static bool bad_value(const struct motion *motion, span at, str text, const struct expression_fault *fault,
                       int32_t frame) {
     const char *suffix = frame > 0 ? arena_format(scratch(motion), ", in frame %d", (int)frame).ptr : "";
-    const struct diag_expression expression = {.text = text, .at = at, .suffix = suffix};
+    const struct evaluation *e = motion->evaluation;
+    const struct diag_expression expression = {.text = text,
+                                               .at = at,
+                                               .suffix = suffix,
+                                               .names = e ? e->names : NULL,
+                                               .name_count = e ? e->count : 0};
     diag_expression_fault(sink(motion), motion->loader->input->sources, DIAG_TRACK_VALUE, &expression, fault);
     return false;
 }
@@ -160,6 +226,9 @@ static bool not_a_number(const struct motion *motion, span at, str text, enum ex
 
 static bool compile(const struct motion *motion, const struct moving *m, str text, span at, int32_t frame,
                     struct moving_text *out) {
+    // What moves a parameter is not computed from others, which may be computed from it.
+    const struct expression_scope *scope =
+        motion->evaluation && !m->parameter ? &motion->evaluation->scope : NULL;
     bool all_numbers = true;
     str rest = text;
     *out = (struct moving_text){0};
@@ -175,7 +244,7 @@ static bool compile(const struct motion *motion, const struct moving *m, str tex
     for (; out->count < CURVE_WIDTH_MOST && ir_values_next(&rest, &out->parts[out->count]); out->count++) {
         struct expression_fault fault;
         const str part = out->parts[out->count];
-        if (!expression_compile(part, NULL, scratch(motion), &out->values[out->count], &fault))
+        if (!expression_compile(part, scope, scratch(motion), &out->values[out->count], &fault))
             return bad_value(motion, at, part, &fault, frame);
         all_numbers = all_numbers && out->values[out->count].type == EXPRESSION_NUMBER;
     }
@@ -189,9 +258,13 @@ static bool compile(const struct motion *motion, const struct moving *m, str tex
 
 static bool evaluate(const struct motion *motion, const struct moving *m, const struct moving_text *text,
                      span at, int32_t frame, double out[CURVE_WIDTH_MOST]) {
+    struct evaluation *e = motion->evaluation;
     const struct expression_at when = {.frame = frame,
                                        .time = frame / motion->animation->rate,
-                                       .decodes = motion->scene->image.transfer == IR_TRANSFER_SRGB};
+                                       .decodes = motion->scene->image.transfer == IR_TRANSFER_SRGB,
+                                       .values = e ? e->values : NULL};
+    if (e && !m->parameter && e->at.frame != frame)
+        evaluation_set_frame(e, when.frame, when.time);
     struct expression_fault fault;
     if (text->count == 0)
         memcpy(out, text->constant, sizeof text->constant);

@@ -66,8 +66,8 @@ void merge_compact(struct loader *loader, struct ir_scene *scene);
 void override_apply(struct loader *loader, struct ir_scene *scene);
 
 // animate.c
-// If the animation names a frame, the scene gets its values in that frame and then has no animation. Else all
-// frames are checked, and nothing changes.
+// Formulas get their values. If the animation names a frame, the scene gets its values in that frame and then
+// has no animation. Else all frames are checked.
 void animate_scene(struct loader *loader, struct ir_scene *scene);
 
 // names.c

@@ -1,5 +1,6 @@
 // One scene from several files: elements that occur once merge by attribute, lists are joined.
 #include "grammar/ir.h"
+#include "grammar/ir_formula.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 #include "parser/bind/bind.h"
@@ -83,6 +84,7 @@ static void take_row(const struct merging *merging, const struct schema_element 
            (size_t)r->size * (r->many == SCHEMA_FIXED ? r->fixed_count : 1));
     head->written = (head->written & ~bind_bit(row)) | (other->written & bind_bit(row));
     head->poisoned = (head->poisoned & ~bind_bit(row)) | (other->poisoned & bind_bit(row));
+    ir_formula_take(origin->arena, origin->formulas, head, other, r);
     const struct ir_row_origin *places = ir_origin_row(origin, other, row);
     if (places)
         ir_origin_add_row(origin, head->origin, *places);
@@ -197,6 +199,7 @@ struct ir_scene *merge_files(struct loader *loader) {
     struct ir_origin *origin = &loader->output->origin;
     struct ir_scene *scene = ARENA_NEW(loader->input->arena, struct ir_scene);
     schema_init(&SCHEMA_SCENE, scene);
+    scene->formulas = origin->formulas;
     struct ir_element_origin root = origin->elements.items[loader->files.items[0].scene->head.origin];
     root.rows = 0;
     scene->head.origin = ir_origin_add(origin, root);

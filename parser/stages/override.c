@@ -2,6 +2,7 @@
 // the same words as in a file.
 #include "parser/stages/override.h"
 #include "diag/codes/binding.h"
+#include "grammar/ir_formula.h"
 
 #include "parser/bind/say.h"
 #include "parser/bind/visit.h"
@@ -156,7 +157,10 @@ static void set_component(struct override *o, const struct override_target *targ
     char *field =
         (char *)schema_field(row, frame->memory) + (target->slot > 0 ? (size_t)target->slot * row->size : 0);
     struct bind_subject subject = {.frame = frame, .row = row, .index = target->slot};
+    struct ir_origin *origin = origin_of(o);
     bool good;
+    ir_formula_drop(origin->arena, origin->formulas, bind_head(frame), row, target->slot,
+                    target->component == OVERRIDE_WHOLE_SLOT ? IR_FORMULA_WHOLE : (int)target->component);
     if (target->component == OVERRIDE_WHOLE_SLOT) {
         good = bind_value(&o->context, subject, o->context.tree->root, field);
     } else {
@@ -208,13 +212,38 @@ static bool read_color(struct override *o, struct arena *arena, struct tree *tre
     return true;
 }
 
+// Nor has a value that is computed as a whole.
+static bool is_computed(struct override *o, const struct override_target *target) {
+    const struct bind_frame *frame = target->frame;
+    const struct schema_row *row = &frame->schema->rows[target->row];
+    if (target->kind != OVERRIDE_COMPONENT || target->component == OVERRIDE_WHOLE_SLOT ||
+        !ir_formula_of(origin_of(o)->formulas, bind_head(frame), row, target->slot, IR_FORMULA_WHOLE))
+        return false;
+    diag_add(o->loader->input->sink, DIAG_SET_PATH, o->path,
+             "%.*s is computed as a whole; it can only be set as a whole",
+             STR_ARG(say_subject(&o->loader->scratch, bind_subject(frame, row))));
+    return true;
+}
+
+// A parameter that is given a value keeps its bounds and its description.
+static bool is_value_alone(const struct override_target *target, const struct tree *tree) {
+    return target->kind == OVERRIDE_ENTRY && target->frame->schema->rows[target->row].aside &&
+           tree_node(tree, tree->root)->kind != TREE_MAP;
+}
+
+static void set_alone(struct override *o, const struct override_target *target) {
+    struct bind_frame *entry = override_enter(o, target);
+    override_mark(o, entry);
+    set_row(o, entry, (uint32_t)schema_short_row(entry->schema));
+}
+
 static void set_target(struct override *o, const struct override_target *target) {
     struct reader_context reader = {.sources = o->loader->input->sources,
                                     .sink = o->loader->input->sink,
                                     .limits = o->loader->input->limits,
                                     .arena = &o->loader->scratch};
     struct tree tree = {.source = o->source};
-    if (is_hex(o, target))
+    if (is_hex(o, target) || is_computed(o, target))
         return;
     if (!read_color(o, reader.arena, &tree) && !read_yaml_value(&reader, o->source, o->value_begin, &tree))
         return;
@@ -222,7 +251,9 @@ static void set_target(struct override *o, const struct override_target *target)
         return;
     o->context.tree = &tree;
     override_mark(o, target->frame);
-    if (target->kind == OVERRIDE_ROW)
+    if (is_value_alone(target, &tree))
+        set_alone(o, target);
+    else if (target->kind == OVERRIDE_ROW)
         set_row(o, target->frame, target->row);
     else if (target->kind == OVERRIDE_ENTRY)
         set_entry(o, target);

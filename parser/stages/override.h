@@ -87,5 +87,7 @@ void override_mark(struct override *o, struct bind_frame *frame);
 // override_walk.c
 // Follows the steps; false: reported (E220, E221).
 bool override_walk(struct override *o, struct override_target *target);
+// The element of a target that is an entry.
+struct bind_frame *override_enter(struct override *o, const struct override_target *target);
 
 #endif

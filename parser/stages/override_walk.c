@@ -258,12 +258,13 @@ static bool find_entry(struct override *o, struct override_target *target, uint3
     }
     if (find_name(o, row, list, name, &target->entry))
         return true;
-    bool may_be_new = row->many == SCHEMA_NAMED_MAP && step + 1 == o->step_count &&
+    // A new parameter would be used by nothing.
+    bool may_be_new = row->many == SCHEMA_NAMED_MAP && !row->aside && step + 1 == o->step_count &&
                       str_trim(str_slice(o->text, o->value_begin, o->text.len)).len;
     return may_be_new || unknown_name(o, row, list, s, name);
 }
 
-static struct bind_frame *enter_entry(struct override *o, const struct override_target *target) {
+struct bind_frame *override_enter(struct override *o, const struct override_target *target) {
     const struct schema_row *row = &target->frame->schema->rows[target->row];
     void *list = schema_field(row, target->frame->memory);
     void *item = bind_list_item(list, target->entry, row->child->size);
@@ -321,7 +322,7 @@ static struct bind_frame *element_below(struct override *o, const struct overrid
     struct bind_frame *frame = target->frame;
     const struct schema_row *row = &frame->schema->rows[target->row];
     if (target->kind == OVERRIDE_ENTRY)
-        return enter_entry(o, target);
+        return override_enter(o, target);
     if (row->kind == SCHEMA_ELEMENT) {
         if (is_taken(frame, row))
             return descend(o, frame, row, schema_field(row, frame->memory), STR(""));

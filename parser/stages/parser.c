@@ -82,6 +82,7 @@ static void run_job(void *context) {
     }
     ir_origin_copy(&job->kept->output.origin, loader->input->arena, &loader->output->origin);
     loader->output->scene = ir_copy(job->kept->output.scene, loader->input->arena);
+    loader->output->scene->formulas = loader->output->origin.formulas;
     run_scene(loader);
     job->done = true;
 }

@@ -76,7 +76,7 @@ static bool is_stop(const struct schema_row *row) {
 
 static bool is_light(const struct schema_row *row) {
     return row->kind != SCHEMA_TEXT && row->kind != SCHEMA_ELEMENT && row->kind != SCHEMA_LIST &&
-           row->range != SCHEMA_RANGE_VERSION && !is_stop(row);
+           row->range != SCHEMA_RANGE_VERSION && !row->plain && !is_stop(row);
 }
 
 // What moves shows in a frame, not in the picture of the scene: tests/batch.
@@ -523,6 +523,7 @@ static void try_seed(struct bench *b, uint64_t seed) {
     static const str images[] = {{"sky.hdr", sizeof "sky.hdr" - 1}};
     const struct generate_options options = {.seed = seed,
                                              .renderable = true,
+                                             .plain = true,
                                              .meshes = {bench_meshes, 1},
                                              .images = {images, 1},
                                              .mesh_materials = {materials, 2}};

@@ -37,6 +37,17 @@ void load_text(struct loaded *loaded, const char *path, str text) {
     loaded->is_there = parser_load_file(&input, loaded->main_source, &loaded->output);
 }
 
+void load_whole_text(struct loaded *loaded, const char *path, str text) {
+    begin(loaded);
+    files_add_overlay(&loaded->files, str_from(path), text);
+    loaded->main_source =
+        source_add(&loaded->sources, SOURCE_KIND_OVERLAY, str_from(path), arena_copy(&loaded->arena, text));
+    struct parser_input input = input_of(loaded);
+    if (files_add_root(&loaded->files, STR(".")) != FILE_OK)
+        fail_msg("no folder");
+    loaded->is_there = parser_load(&input, loaded->main_source, &loaded->output);
+}
+
 void load_path(struct loaded *loaded, const char *path) {
     str text = STR("");
     begin(loaded);

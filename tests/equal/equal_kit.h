@@ -23,6 +23,8 @@ struct loaded {
 // One file alone, without includes; `path` decides nothing but the ending.
 void load_text(struct loaded *loaded, const char *path, str text);
 // A file and all that it includes.
+// All stages, without any file beside it.
+void load_whole_text(struct loaded *loaded, const char *path, str text);
 void load_path(struct loaded *loaded, const char *path);
 void loaded_finish(struct loaded *loaded);
 

@@ -1,6 +1,7 @@
 #include "tests/equal/json_schema.h"
 
 #include "core/number.h"
+#include "core/strbuf.h"
 #include "parser/tree/reader.h"
 
 #include <regex.h>
@@ -34,15 +35,78 @@ static bool check_type(const json_t *types, const json_t *value) {
     return false;
 }
 
-// Patterns with escapes of JavaScript are not for POSIX; names are tested elsewhere.
+// ---- patterns of JavaScript, as POSIX has them
+
+static void add_class(bool set[256], char class) {
+    for (int c = '0'; class == 'd' && c <= '9'; c++)
+        set[c] = true;
+    for (const char *blank = " \t\n\r"; class == 's' && *blank; blank++)
+        set[(unsigned char)*blank] = true;
+}
+
+// The set in brackets at `at`, and the place after it.
+static const char *read_set(const char *at, bool set[256]) {
+    const bool is_inverse = *at == '^';
+    for (at += is_inverse; *at != ']'; at++) {
+        const bool is_escape = *at == '\\';
+        unsigned char first = (unsigned char)*(at += is_escape), last = first;
+        if (is_escape && (first == 'd' || first == 's')) {
+            add_class(set, (char)first);
+            continue;
+        }
+        if (at[1] == '-' && at[2] != ']') {
+            at += 2;
+            last = (unsigned char)*(at += *at == '\\');
+        }
+        for (int c = first; c <= last; c++)
+            set[c] = true;
+    }
+    for (int c = 1; is_inverse && c < 256; c++)
+        set[c] = !set[c];
+    return at + 1;
+}
+
+// "]" first, "-" last, "^" in between.
+static void write_set(const bool set[256], struct strbuf *out) {
+    strbuf_cstr(out, set[']'] ? "[]" : "[");
+    for (int c = 1; c < 256; c++)
+        if (set[c] && c != ']' && c != '-' && c != '^')
+            strbuf_char(out, (char)c);
+    strbuf_cstr(out, set['^'] ? "^" : "");
+    strbuf_cstr(out, set['-'] ? "-]" : "]");
+}
+
+static void translate(const char *pattern, struct strbuf *out) {
+    while (*pattern) {
+        bool set[256] = {false};
+        if (*pattern == '[') {
+            pattern = read_set(pattern + 1, set);
+            write_set(set, out);
+        } else if (*pattern == '\\' && (pattern[1] == 'd' || pattern[1] == 's')) {
+            add_class(set, pattern[1]);
+            write_set(set, out);
+            pattern += 2;
+        } else {
+            if (*pattern == '\\')
+                strbuf_char(out, *pattern++);
+            strbuf_char(out, *pattern++);
+        }
+    }
+}
+
 static bool check_pattern(const char *pattern, const char *text) {
     regex_t regex;
     if (strstr(pattern, "\\u"))
         return str_is_name(str_from(text)); // names of any script: the one pattern beyond POSIX
-    if (regcomp(&regex, pattern, REG_EXTENDED | REG_NOSUB) != 0)
-        return false;
-    bool good = regexec(&regex, text, 0, NULL, 0) == 0;
-    regfree(&regex);
+    struct strbuf posix;
+    strbuf_init(&posix);
+    translate(pattern, &posix);
+    strbuf_char(&posix, '\0');
+    const bool is_pattern = regcomp(&regex, posix.data, REG_EXTENDED | REG_NOSUB) == 0;
+    const bool good = is_pattern && regexec(&regex, text, 0, NULL, 0) == 0;
+    if (is_pattern)
+        regfree(&regex);
+    strbuf_finish(&posix);
     return good;
 }
 

@@ -106,7 +106,7 @@ static void test_mistakes(void **state) {
         "{glint: 1, lights: [{position: [0, 0, 0], direction: [0, 0, 1]}]}",
         "{glint: 1, lights: {position: [0, 0, 0]}}",
         "{glint: 1, materials: {m: {albedo: [1, 0, 0]}}}",
-        "{glint: 1, materials: {m: {diffuse_color: red}}}",
+        "{glint: 1, materials: {m: {diffuse_color: 1 2}}}",
         "{glint: 1, materials: {m: {diffuse_color: \"#12345\"}}}",
         "{glint: 1, materials: {m: {diffuse_color: {checker: {colors: [0]}}}}}",
         "{glint: 1, materials: {m: {refractive_index: 0}}}",

@@ -1,4 +1,7 @@
 // Generated scenes mean the same after any way through both spellings.
+#include "grammar/ir.h"
+#include "grammar/ir_formula.h"
+#include "grammar/ir_hash.h"
 #include "tests/equal/equal_kit.h"
 #include "tests/generate/generate.h"
 
@@ -53,6 +56,13 @@ static void check_text(const char *what, bool xml, const struct strbuf *text, co
     strbuf_finish(&again);
 }
 
+static void hash_scene(const struct ir_scene *scene, uint64_t out[2]) {
+    struct hash128 hash;
+    hash128_begin(&hash);
+    ir_hash(&hash, &SCHEMA_SCENE, scene);
+    hash128_end(&hash, out);
+}
+
 // scene -> YAML -> XML -> YAML, each read back and compared.
 static void check_scene(uint64_t seed) {
     struct arena arena;
@@ -85,6 +95,46 @@ static void test_generated_scenes(void **state) {
     (void)state;
     for (uint64_t seed = 0; seed < SCENE_COUNT; seed++)
         check_scene(seed);
+}
+
+static void load_evaluated(struct loaded *loaded, const char *what, const struct strbuf *text,
+                           uint64_t hash[2]) {
+    load_whole_text(loaded, "scene.yaml", strbuf_view(text));
+    if (loaded->sink.errors)
+        print_error("%s", text->data);
+    assert_no_errors(loaded, what);
+    hash_scene(loaded->output.scene, hash);
+}
+
+// Without parameters and expressions a scene means the same.
+static void test_expanded_scenes(void **state) {
+    uint32_t computed = 0;
+    (void)state;
+    for (uint64_t seed = 0; seed < SCENE_COUNT; seed++) {
+        const struct generate_options options = {.seed = seed, .renderable = true};
+        struct arena arena;
+        struct loaded first, second;
+        struct strbuf text;
+        uint64_t before[2], after[2];
+        char what[40];
+        snprintf(what, sizeof what, "seed %llu", (unsigned long long)seed);
+        arena_init(&arena, (size_t)1 << 26);
+        strbuf_init(&text);
+        struct ir_scene *scene = generate_scene(&options, &arena);
+        computed += scene->parameters.count > 0;
+        ir_write_yaml(scene, NULL, NULL, (struct ir_write_options){0}, &text);
+        load_evaluated(&first, what, &text, before);
+        ir_formulas_expand(first.output.scene);
+        strbuf_clear(&text);
+        ir_write_yaml(first.output.scene, NULL, NULL, (struct ir_write_options){0}, &text);
+        load_evaluated(&second, what, &text, after);
+        if (memcmp(before, after, sizeof before) != 0 || strstr(text.data, "\nparameters:"))
+            fail_msg("%s, expanded, means something else: %s", what, text.data);
+        loaded_finish(&first), loaded_finish(&second);
+        strbuf_finish(&text);
+        arena_finish(&arena);
+    }
+    assert_in_range(computed, SCENE_COUNT / 4, SCENE_COUNT);
 }
 
 // What the generator never writes is not tested by it.
@@ -163,6 +213,7 @@ static void test_seeds_repeat(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_generated_scenes),
+        cmocka_unit_test(test_expanded_scenes),
         cmocka_unit_test(test_generator_reaches_every_row),
         cmocka_unit_test(test_json),
         cmocka_unit_test(test_dumps_are_scenes),

@@ -23,6 +23,7 @@ struct generate_options {
     uint64_t seed;
     // Moderate values, a camera that sees the bodies, and a small picture: something to look at.
     bool renderable;
+    bool plain; // values are written as they are, none is computed
     // Files that the scene may name; without paths of a kind, nothing names one.
     struct generate_paths meshes, images, fonts, includes;
     // The materials that faces of every mesh in `meshes` use: what material_map may map from. In scenes

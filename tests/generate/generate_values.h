@@ -45,6 +45,8 @@ str generate_text(struct generator *g);
 
 // Mends what the table cannot say (generate_rules.c).
 void generate_mend(struct generator *g, struct ir_scene *scene);
+// generate_formulas.c: has values of the scene computed, to be what they are.
+void generate_formulas(struct generator *g, struct ir_scene *scene);
 // generate_meshes.c: gives a mesh points and faces that make a body.
 void generate_mend_mesh(struct generator *g, struct ir_mesh *mesh);
 

@@ -289,8 +289,8 @@ static void what_is_there_twice(void **state) {
                                 "z=\"1\"/><Rotation x=\"0\" y=\"0\" z=\"0\"/></Camera>" END_XML,
                        "E214", "camera 'main' has both 'look_at' and 'rotation'; only one is allowed");
     // The second value is looked into all the same.
-    loaded_check(HEAD_YAML "camera: {look_at: [0, 0, 9], rotation: [0, x, 0]}\n", "E214 E205", NULL);
-    loaded_check(HEAD_XML "<Image/><Image width=\"x\"/>" END_XML, "E203 E205", NULL);
+    loaded_check(HEAD_YAML "camera: {look_at: [0, 0, 9], rotation: [0, 3m, 0]}\n", "E214 E205", NULL);
+    loaded_check(HEAD_XML "<Image/><Image width=\"3m\"/>" END_XML, "E203 E205", NULL);
 }
 
 static void names_that_do_not_exist(void **state) {

@@ -1,0 +1,319 @@
+// Formulas of the scene: each is read once, and its value put in its place.
+#include "parser/stages/evaluate.h"
+#include "diag/codes/binding.h"
+#include "diag/diag_expression.h"
+
+#include "core/number.h"
+#include "grammar/ir_walk.h"
+#include "parser/bind/bind.h"
+#include "parser/bind/say.h"
+#include "parser/tree/mend.h"
+#include "parser/tree/tree.h"
+
+#include <math.h>
+#include <string.h>
+
+static struct diag_sink *sink(const struct evaluation *e) {
+    return e->loader->input->sink;
+}
+
+// ---- what does not fit
+
+static struct bind_subject subject_of(const struct bind_frame *frame, const struct ir_formula *f) {
+    struct bind_subject subject = {.frame = frame, .row = f->row, .index = f->slot};
+    if (f->component != IR_FORMULA_WHOLE)
+        subject.component = schema_components(f->row->kind)[f->component];
+    return subject;
+}
+
+// A word that is near no name, such as `yes` or `red`, was not meant as a formula: the binder reports what is
+// expected there.
+static bool is_plain_mistake(struct evaluation *e, const struct ir_formula *f,
+                             const struct expression_fault *fault) {
+    bool safe;
+    if (f->row->kind == SCHEMA_COLOR && f->component == IR_FORMULA_WHOLE &&
+        fault->problem != EXPRESSION_WRONG && mend_color(&e->loader->scratch, f->text, &safe).len)
+        return true;
+    const struct diag_expression expression = {.names = e->names, .name_count = e->count};
+    return fault->problem == EXPRESSION_UNKNOWN_NUMBER && expression_is_name(f->text) &&
+           !diag_expression_is_near(sink(e), &expression, f->text);
+}
+
+static bool is_xml(const struct loader *loader, uint32_t source) {
+    const struct ir_origin *origin = &loader->output->origin;
+    for (uint32_t i = 0; i < origin->files.count; i++)
+        if (origin->files.items[i].source == source)
+            return origin->files.items[i].is_xml;
+    return false;
+}
+
+static void tell_plain_mistake(struct evaluation *e, const struct bind_frame *frame,
+                               const struct ir_formula *f) {
+    struct loader *loader = e->loader;
+    struct tree tree;
+    tree_init(&tree, &loader->scratch, f->at.source, is_xml(loader, f->at.source));
+    tree.root = tree_add(&tree, (struct tree_node){.kind = TREE_SCALAR,
+                                                   .begin = f->at.begin,
+                                                   .end = f->at.end,
+                                                   .value = tree_add_text(&tree, f->text),
+                                                   .count = (uint32_t)f->text.len});
+    struct bind_context context = {.sink = sink(e),
+                                   .sources = loader->input->sources,
+                                   .origin = &loader->output->origin,
+                                   .arena = loader->input->arena,
+                                   .scratch = &loader->scratch,
+                                   .index = &loader->index,
+                                   .texts = &loader->texts,
+                                   .tree = &tree,
+                                   .plain = true};
+    struct ir_color whole;
+    double component;
+    if (f->component == IR_FORMULA_WHOLE)
+        bind_value(&context, subject_of(frame, f), tree.root, &whole);
+    else
+        bind_number(&context, subject_of(frame, f), tree.root, &component);
+}
+
+static bool wrong_type(struct evaluation *e, const struct bind_frame *frame, const struct ir_formula *f,
+                       enum expression_type type) {
+    struct arena *scratch = &e->loader->scratch;
+    const bool is_boolean = f->row->kind == SCHEMA_BOOLEAN;
+    diag_add(sink(e), DIAG_EXPRESSION, f->at, "%.*s must be %.*s; '%.*s' is %s",
+             STR_ARG(say_subject(scratch, subject_of(frame, f))),
+             STR_ARG(is_boolean ? STR("true or false") : say_expected_of(scratch, subject_of(frame, f))),
+             STR_ARG(say_text(scratch, f->text)), expression_type_name(type));
+    if (is_boolean && type == EXPRESSION_NUMBER)
+        diag_help(sink(e), "write %.*s > 0", STR_ARG(say_text(scratch, f->text)));
+    return false;
+}
+
+static void note_text(struct evaluation *e, const struct ir_formula *f) {
+    if (f->text.len <= 60)
+        diag_note(sink(e), SPAN_NONE, "%s = %.*s", f->row->name, STR_ARG(f->text));
+}
+
+static bool out_of_range(struct evaluation *e, struct bind_subject subject, const struct ir_formula *f,
+                         double value) {
+    char digits[NUMBER_FORMAT_MAX];
+    if (e->is_quiet)
+        return false;
+    number_format(value, digits);
+    diag_add(sink(e), DIAG_OUT_OF_RANGE, f->at, "%.*s is %s%s; it must be %s%s",
+             STR_ARG(say_subject(&e->loader->scratch, subject)), digits, e->suffix,
+             schema_range_info(f->row->range)->text, say_unit(f->row));
+    note_text(e, f);
+    return false;
+}
+
+static bool fits(struct evaluation *e, struct bind_subject subject, const struct ir_formula *f,
+                 double value) {
+    char digits[NUMBER_FORMAT_MAX];
+    if (!schema_in_range(f->row->range, value))
+        return out_of_range(e, subject, f, value);
+    if (f->row->kind != SCHEMA_INTEGER || value == floor(value))
+        return true;
+    if (e->is_quiet)
+        return false;
+    number_format(value, digits);
+    diag_add(sink(e), DIAG_OUT_OF_RANGE, f->at, "%.*s is %s%s; it must be a whole number",
+             STR_ARG(say_subject(&e->loader->scratch, subject)), digits, e->suffix);
+    note_text(e, f);
+    diag_help(sink(e), "write floor(%.*s)", STR_ARG(say_text(&e->loader->scratch, f->text)));
+    return false;
+}
+
+// ---- one formula
+
+static bool type_fits(const struct ir_formula *f, enum expression_type type) {
+    const enum schema_kind kind = f->row->kind;
+    if (f->component != IR_FORMULA_WHOLE || kind == SCHEMA_NUMBER || kind == SCHEMA_INTEGER)
+        return type == EXPRESSION_NUMBER;
+    if (kind == SCHEMA_BOOLEAN)
+        return type == EXPRESSION_TRUTH;
+    if (type == EXPRESSION_TRIPLE)
+        return kind == SCHEMA_VECTOR || kind == SCHEMA_COLOR;
+    return type == EXPRESSION_NUMBER && (f->row->fill || kind == SCHEMA_COLOR);
+}
+
+static void store(const struct ir_formula *f, const struct expression *expression, const double *value,
+                  char *field) {
+    const uint32_t width = schema_component_count(f->row->kind);
+    double all[EXPRESSION_WIDTH];
+    if (f->component != IR_FORMULA_WHOLE) {
+        memcpy(field + (size_t)f->component * sizeof *value, value, sizeof *value);
+        return;
+    }
+    if (f->row->kind == SCHEMA_BOOLEAN) {
+        *(bool *)field = value[0] != 0;
+    } else if (f->row->kind == SCHEMA_INTEGER) {
+        const int32_t whole = (int32_t)value[0];
+        memcpy(field, &whole, sizeof whole);
+    } else if (width == 0) {
+        memcpy(field, value, sizeof *value);
+    } else if (f->row->kind == SCHEMA_COLOR && expression->type == EXPRESSION_TRIPLE && value[3] >= 0) {
+        const struct ir_color color = {.is_hex = true, .hex = (uint32_t)value[3]};
+        memcpy(field, &color, sizeof color);
+    } else {
+        for (uint32_t i = 0; i < width; i++)
+            all[i] = expression->type == EXPRESSION_TRIPLE ? value[i] : value[0];
+        if (f->row->kind == SCHEMA_COLOR)
+            *(struct ir_color *)(void *)field = (struct ir_color){.r = all[0], .g = all[1], .b = all[2]};
+        else
+            memcpy(field, all, width * sizeof *all);
+    }
+}
+
+static bool value_fits(struct evaluation *e, const struct bind_frame *frame, const struct ir_formula *f,
+                       const struct expression *expression, const double *value) {
+    struct bind_subject subject = subject_of(frame, f);
+    const bool is_triple = expression->type == EXPRESSION_TRIPLE;
+    if (f->row->kind == SCHEMA_BOOLEAN)
+        return true;
+    for (uint32_t i = 0; i < (is_triple ? 3u : 1u); i++) {
+        if (is_triple)
+            subject.component = schema_components(f->row->kind)[i];
+        if (!fits(e, subject, f, value[i]))
+            return false;
+    }
+    return true;
+}
+
+static bool run(struct evaluation *e, const struct bind_frame *frame, const struct ir_formula *f,
+                const struct expression *expression) {
+    struct expression_fault fault;
+    double value[EXPRESSION_WIDTH];
+    if (!expression_at(expression, &e->at, value, &fault)) {
+        evaluation_fault(e, DIAG_EXPRESSION, f->text, f->at, &fault);
+        return false;
+    }
+    if (!value_fits(e, frame, f, expression, value))
+        return false;
+    store(f, expression, value,
+          (char *)schema_field(f->row, frame->memory) + (f->slot > 0 ? (size_t)f->slot * f->row->size : 0));
+    return true;
+}
+
+// Frames of the walk are on its stack.
+static const struct bind_frame *keep_frame(struct arena *arena, const struct bind_frame *frame) {
+    struct bind_frame *copy = ARENA_NEW(arena, struct bind_frame);
+    *copy = *frame;
+    copy->parent = frame->parent ? keep_frame(arena, frame->parent) : NULL;
+    return copy;
+}
+
+static void keep_moving(struct evaluation *e, const struct bind_frame *frame, const struct ir_formula *f,
+                        const struct expression *expression) {
+    struct arena *arena = &e->loader->scratch;
+    if (ARENA_IS_FULL(&e->moving))
+        e->moving.items = arena_regrow(arena, e->moving.items, e->moving.count, &e->moving.capacity,
+                                       sizeof *e->moving.items);
+    e->moving.items[e->moving.count++] = (struct moving_formula){f, *expression, keep_frame(arena, frame)};
+}
+
+// Reads the formula, and puts its value in its place.
+static bool take(struct evaluation *e, const struct bind_frame *frame, const struct ir_formula *f) {
+    struct expression expression;
+    struct expression_fault fault;
+    if (!expression_compile(f->text, &e->scope, &e->loader->scratch, &expression, &fault)) {
+        const uint32_t known = str_map_find(&e->by_name, str_slice(f->text, fault.begin, fault.end));
+        const bool is_known = fault.problem == EXPRESSION_UNKNOWN_NUMBER && known;
+        if (e->is_quiet || is_known)
+            return false;
+        if (is_plain_mistake(e, f, &fault))
+            tell_plain_mistake(e, frame, f);
+        else
+            evaluation_fault(e, DIAG_EXPRESSION, f->text, f->at, &fault);
+        return false;
+    }
+    if (!type_fits(f, expression.type))
+        return !e->is_quiet && wrong_type(e, frame, f, expression.type);
+    if (expression.moves)
+        keep_moving(e, frame, f, &expression);
+    return run(e, frame, f, &expression);
+}
+
+bool evaluate_moving(struct evaluation *e) {
+    bool good = true;
+    for (uint32_t i = 0; i < e->moving.count && good; i++) {
+        const struct moving_formula *m = &e->moving.items[i];
+        good = run(e, m->frame, m->formula, &m->expression);
+    }
+    return good;
+}
+
+// ---- all of them
+
+static void walk_element(struct evaluation *e, struct bind_frame *frame);
+
+static bool has_parts(const struct schema_element *schema) {
+    for (uint32_t i = 0; i < schema->row_count; i++)
+        if (schema->rows[i].kind == SCHEMA_ELEMENT || schema->rows[i].kind == SCHEMA_LIST)
+            return true;
+    return false;
+}
+
+static str name_of(const struct schema_element *schema, const void *element) {
+    for (uint32_t i = 0; i < schema->row_count; i++)
+        if (schema->rows[i].kind == SCHEMA_TEXT &&
+            (schema->rows[i].key || schema->rows[i].text == SCHEMA_TEXT_NAME))
+            return *(const str *)schema_field_const(&schema->rows[i], element);
+    return STR("");
+}
+
+static void walk_list(struct evaluation *e, struct bind_frame *frame, const struct schema_row *row) {
+    const struct ir_any_list list = ir_walk_list(row, frame->memory);
+    const bool parts = has_parts(row->child);
+    for (uint32_t i = 0; i < list.count; i++) {
+        void *item = ir_walk_item(row, list, i);
+        if (!parts && ((const struct ir_head *)item)->formulas == 0)
+            continue;
+        struct bind_frame child = {.parent = frame,
+                                   .schema = row->child,
+                                   .via = row,
+                                   .memory = item,
+                                   .name = name_of(row->child, item),
+                                   .label = ir_place_label(&e->loader->output->origin, item)};
+        walk_element(e, &child);
+    }
+}
+
+static void put_default(struct evaluation *e, const struct bind_frame *frame, const struct schema_row *row) {
+    void *fresh = arena_alloc(&e->loader->scratch, frame->schema->size);
+    schema_init(frame->schema, fresh);
+    memcpy(schema_field(row, frame->memory), schema_field(row, fresh),
+           (size_t)row->size * (row->many == SCHEMA_FIXED ? row->fixed_count : 1));
+}
+
+static void walk_element(struct evaluation *e, struct bind_frame *frame) {
+    struct ir_head *head = bind_head(frame);
+    const struct ir_formulas *formulas = e->scene->formulas;
+    for (uint32_t i = head->formulas; i; i = formulas->items[i].next) {
+        const struct ir_formula *f = &formulas->items[i];
+        const uint32_t row = (uint32_t)(f->row - frame->schema->rows);
+        if (!(head->poisoned & bind_bit(row)) && !take(e, frame, f)) {
+            bind_poison(frame, row);
+            put_default(e, frame, f->row);
+        }
+    }
+    for (uint32_t i = 0; i < frame->schema->row_count; i++) {
+        const struct schema_row *row = &frame->schema->rows[i];
+        if (row->kind == SCHEMA_LIST) {
+            walk_list(e, frame, row);
+        } else if (row->kind == SCHEMA_ELEMENT) {
+            struct bind_frame child = {.parent = frame,
+                                       .schema = row->child,
+                                       .via = row,
+                                       .memory = schema_field(row, frame->memory),
+                                       .label = frame->label};
+            child.bare = ir_walk_short(e->scene, row->child, child.memory) >= 0;
+            walk_element(e, &child);
+        }
+    }
+}
+
+void evaluate_formulas(struct evaluation *e) {
+    struct bind_frame root = {.schema = &SCHEMA_SCENE, .memory = e->scene};
+    e->moving.count = 0;
+    if (e->scene->formulas && e->scene->formulas->count > 1)
+        walk_element(e, &root);
+}

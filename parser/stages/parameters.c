@@ -1,0 +1,354 @@
+// Parameters: each is computed after those that are in its expression.
+#include "diag/codes/binding.h"
+#include "diag/diag_expression.h"
+#include "parser/stages/evaluate.h"
+
+#include "core/heap.h"
+#include "core/number.h"
+#include "core/srgb.h"
+#include "grammar/ir_values.h"
+#include "parser/bind/bind.h"
+#include "parser/bind/say.h"
+#include "parser/tree/mend.h"
+
+static struct diag_sink *sink(const struct evaluation *e) {
+    return e->loader->input->sink;
+}
+
+static const struct ir_origin *origin(const struct evaluation *e) {
+    return &e->loader->output->origin;
+}
+
+static span place_of(const struct evaluation *e, const struct parameter *p, const char *row) {
+    return ir_place_value(origin(e), &p->ir->head, &SCHEMA_PARAMETER, row);
+}
+
+void evaluation_fault(struct evaluation *e, diag_code code, str text, span at,
+                      const struct expression_fault *fault) {
+    if (e->is_quiet)
+        return;
+    const struct diag_expression expression = {
+        .text = text, .at = at, .suffix = e->suffix, .names = e->names, .name_count = e->count};
+    diag_expression_fault(sink(e), e->loader->input->sources, code, &expression, fault);
+}
+
+bool evaluation_compile(struct evaluation *e, diag_code code, str text, span at,
+                        struct expression *expression) {
+    struct expression_fault fault;
+    if (expression_compile(text, &e->scope, &e->loader->scratch, expression, &fault))
+        return true;
+    // A parameter that was reported is known.
+    const uint32_t number = str_map_find(&e->by_name, str_slice(text, fault.begin, fault.end));
+    if (fault.problem != EXPRESSION_UNKNOWN_NUMBER || !number)
+        evaluation_fault(e, code, text, at, &fault);
+    return false;
+}
+
+// ---- names
+
+static bool has_good_name(const struct evaluation *e, const struct parameter *p) {
+    const span at = place_of(e, p, "name");
+    const str name = p->ir->name;
+    if (expression_is_word(name) || str_equal(name, STR("tau"))) {
+        diag_add(sink(e), DIAG_BAD_NAME, at,
+                 "'%.*s' is a word of expressions and cannot be a parameter's name", STR_ARG(name));
+        diag_help(sink(e), "choose another name");
+        return false;
+    }
+    if (expression_is_free(name))
+        return true;
+    diag_add(sink(e), DIAG_BAD_NAME, at, "'%.*s' cannot be a parameter's name",
+             STR_ARG(say_text(&e->loader->scratch, name)));
+    str mended = arena_copy(&e->loader->scratch, name);
+    for (size_t i = 0; i < mended.len; i++)
+        if (mended.ptr[i] == '-')
+            ((char *)mended.ptr)[i] = '_';
+    if (!expression_is_name(mended)) {
+        diag_help(
+            sink(e),
+            "a name in expressions has letters, digits and '_', and is not a word such as 'yes' or 'on'");
+        return false;
+    }
+    diag_help(sink(e), "'-' subtracts: write %.*s", STR_ARG(mended));
+    diag_fix(sink(e), false, at, mended);
+    return false;
+}
+
+// ---- types
+
+static bool compile(struct evaluation *e, uint32_t index);
+
+static bool find(const void *context, str name, struct expression_name *found) {
+    struct evaluation *e = (struct evaluation *)context;
+    const uint32_t number = str_map_find(&e->by_name, name);
+    if (!number || !compile(e, number - 1))
+        return false;
+    struct parameter *p = &e->items[number - 1];
+    p->is_used = true;
+    *found = (struct expression_name){p->type, number - 1, p->moves};
+    return true;
+}
+
+// The parameters from the one that begins the ring on; `last` uses it again.
+static void report_ring(struct evaluation *e, uint32_t first) {
+    struct strbuf chain;
+    strbuf_init(&chain);
+    struct parameter *p = &e->items[first];
+    for (uint32_t i = 0; i < e->count; i++)
+        if (e->items[i].state == PARAMETER_OPEN)
+            strbuf_format(&chain, "%s%.*s", chain.len ? ", " : "", STR_ARG(e->names[i]));
+    const bool alone = str_equal(strbuf_view(&chain), e->names[first]);
+    diag_add(sink(e), DIAG_PARAMETER_RING, place_of(e, p, "value"),
+             "parameter '%.*s' depends on itself%s%.*s", STR_ARG(e->names[first]),
+             alone ? "" : ", by way of: ", alone ? 0 : (int)chain.len, alone ? "" : strbuf_view(&chain).ptr);
+    diag_help(sink(e), "give one of them a value of its own");
+    strbuf_finish(&chain);
+}
+
+static bool read_hex(str text, uint32_t *hex) {
+    return text.len == 7 && text.ptr[0] == '#' && mend_hex_digits(str_slice(text, 1, 7), hex);
+}
+
+static bool compile_parts(struct evaluation *e, struct parameter *p) {
+    const span at = place_of(e, p, "value");
+    str rest = p->ir->value;
+    if (read_hex(p->ir->value, &p->hex)) {
+        p->type = EXPRESSION_TRIPLE;
+        return true;
+    }
+    const uint32_t count = ir_values_count(p->ir->value);
+    if (count != 1 && count != 3) {
+        diag_add(sink(e), DIAG_WRONG_COUNT, at,
+                 "parameter '%.*s' has %u values; a number has one, a vector or colour three",
+                 STR_ARG(p->ir->name), count);
+        return false;
+    }
+    bool good = true;
+    for (; p->part_count < count && ir_values_next(&rest, &p->texts[p->part_count]); p->part_count++) {
+        struct expression *part = &p->parts[p->part_count];
+        if (!evaluation_compile(e, DIAG_EXPRESSION, p->texts[p->part_count], at, part)) {
+            good = false;
+            continue;
+        }
+        p->moves |= part->moves;
+        if (count == 3 && part->type != EXPRESSION_NUMBER) {
+            diag_add(sink(e), DIAG_EXPRESSION, at,
+                     "a component of parameter '%.*s' must be a number; '%.*s' is %s", STR_ARG(p->ir->name),
+                     STR_ARG(p->texts[p->part_count]), expression_type_name(part->type));
+            good = false;
+        }
+    }
+    p->type = count == 3 ? EXPRESSION_TRIPLE : p->parts[0].type;
+    return good;
+}
+
+static bool is_row_written(const struct parameter *p, const char *row) {
+    return (p->ir->head.written & bind_bit((uint32_t)schema_find_row(&SCHEMA_PARAMETER, str_from(row)))) != 0;
+}
+
+static bool bounds_fit(const struct evaluation *e, const struct parameter *p) {
+    const bool least = is_row_written(p, "min"), most = is_row_written(p, "max");
+    if (!least && !most)
+        return true;
+    if (p->type != EXPRESSION_NUMBER) {
+        diag_add(sink(e), DIAG_PARAMETER_VALUE, place_of(e, p, least ? "min" : "max"),
+                 "parameter '%.*s' is %s, which has no bounds", STR_ARG(p->ir->name),
+                 expression_type_name(p->type));
+        return false;
+    }
+    if (!least || !most || p->ir->min <= p->ir->max)
+        return true;
+    diag_add(sink(e), DIAG_PARAMETER_VALUE, place_of(e, p, "max"),
+             "'max' of parameter '%.*s' is less than its 'min'", STR_ARG(p->ir->name));
+    return false;
+}
+
+static bool compile(struct evaluation *e, uint32_t index) {
+    struct parameter *p = &e->items[index];
+    if (p->state == PARAMETER_OPEN)
+        report_ring(e, index);
+    if (p->state != PARAMETER_NEW)
+        return p->state == PARAMETER_DONE;
+    p->state = PARAMETER_OPEN;
+    const bool good = !p->ir->head.poisoned && has_good_name(e, p) && compile_parts(e, p) && bounds_fit(e, p);
+    p->state = good ? PARAMETER_DONE : PARAMETER_BAD;
+    if (good)
+        e->order[e->ordered++] = index;
+    return good;
+}
+
+// "parameters.height", "parameters[height]": the parameter that a track names. 0: none, else 1 + its index.
+static uint32_t target_of(const struct evaluation *e, str target) {
+    const str list = STR("parameters");
+    if (!str_starts_with(target, list) || target.len <= list.len || !strchr(".[", target.ptr[list.len]))
+        return 0;
+    const str rest = str_slice(target, list.len + 1, target.len);
+    return str_map_find(&e->by_name, str_slice(rest, 0, expression_name_length(rest)));
+}
+
+static void mark_moved(struct evaluation *e) {
+    const struct ir_tracks *tracks = &e->scene->animation.tracks;
+    for (uint32_t i = 0; i < tracks->count; i++) {
+        const uint32_t number = target_of(e, tracks->items[i].target);
+        if (number)
+            e->items[number - 1].moves = true;
+    }
+}
+
+struct evaluation *evaluation_begin(struct loader *loader, struct ir_scene *scene) {
+    struct arena *scratch = &loader->scratch;
+    const struct ir_parameters *parameters = &scene->parameters;
+    const bool has_formulas = scene->formulas && scene->formulas->count > 1;
+    if (parameters->count == 0 && !has_formulas)
+        return NULL;
+    struct evaluation *e = ARENA_NEW(scratch, struct evaluation);
+    *e = (struct evaluation){
+        .loader = loader,
+        .scene = scene,
+        .items = ARENA_ARRAY(scratch, struct parameter, parameters->count),
+        .names = ARENA_ARRAY(scratch, str, parameters->count),
+        .count = parameters->count,
+        .order = ARENA_ARRAY(scratch, uint32_t, parameters->count),
+        .values = ARENA_ARRAY(scratch, double, heap_times(EXPRESSION_WIDTH, parameters->count)),
+        .suffix = ""};
+    e->scope = (struct expression_scope){find, e};
+    e->at = (struct expression_at){.decodes = scene->image.transfer == IR_TRANSFER_SRGB, .values = e->values};
+    str_map_init(&e->by_name, scratch);
+    for (uint32_t i = 0; i < e->count; i++) {
+        e->items[i] = (struct parameter){.ir = &parameters->items[i]};
+        e->names[i] = parameters->items[i].name;
+        uint32_t *number = str_map_at(&e->by_name, e->names[i]);
+        *number = *number ? *number : i + 1;
+    }
+    mark_moved(e);
+    for (uint32_t i = 0; i < e->count; i++)
+        compile(e, i);
+    // Used by parameters that nothing uses is not used.
+    for (uint32_t i = 0; i < e->count; i++)
+        e->items[i].is_used = false;
+    return e;
+}
+
+// ---- values
+
+static bool is_in_bounds(struct evaluation *e, const struct parameter *p, double value) {
+    char digits[NUMBER_FORMAT_MAX], bound[NUMBER_FORMAT_MAX];
+    const bool low = is_row_written(p, "min") && value < p->ir->min;
+    const bool high = is_row_written(p, "max") && value > p->ir->max;
+    if (!low && !high)
+        return true;
+    if (e->is_quiet)
+        return false;
+    number_format(value, digits);
+    number_format(low ? p->ir->min : p->ir->max, bound);
+    diag_add(sink(e), DIAG_PARAMETER_VALUE, place_of(e, p, "value"),
+             "parameter '%.*s' is %s%s; it must be at %s %s", STR_ARG(p->ir->name), digits, e->suffix,
+             low ? "least" : "most", bound);
+    diag_note(sink(e), place_of(e, p, low ? "min" : "max"), "the bound is here");
+    return false;
+}
+
+static bool evaluate(struct evaluation *e, struct parameter *p, double *value) {
+    struct expression_fault fault;
+    if (p->part_count == 0) {
+        for (int i = 0; i < 3; i++) {
+            const uint32_t byte = p->hex >> (16 - 8 * i) & 255;
+            value[i] = e->at.decodes ? srgb_decode_byte(byte) : byte / 255.0;
+        }
+        value[3] = p->hex;
+        return true;
+    }
+    for (uint32_t i = 0; i < p->part_count; i++) {
+        double part[EXPRESSION_WIDTH];
+        if (!expression_at(&p->parts[i], &e->at, part, &fault)) {
+            evaluation_fault(e, DIAG_EXPRESSION, p->texts[i], place_of(e, p, "value"), &fault);
+            return false;
+        }
+        if (p->part_count == 1)
+            memcpy(value, part, sizeof part);
+        else
+            value[i] = part[0];
+    }
+    if (p->part_count == 3)
+        value[3] = -1;
+    return p->type != EXPRESSION_NUMBER || is_in_bounds(e, p, value[0]);
+}
+
+bool evaluation_set_frame(struct evaluation *e, double frame, double time) {
+    bool good = true;
+    e->at.frame = frame;
+    e->at.time = time;
+    if (e->move)
+        e->move(e->motion, e);
+    for (uint32_t i = 0; i < e->ordered; i++) {
+        const uint32_t index = e->order[i];
+        struct parameter *p = &e->items[index];
+        double *value = e->values + (size_t)EXPRESSION_WIDTH * index;
+        if (p->is_moved)
+            good = (p->type != EXPRESSION_NUMBER || is_in_bounds(e, p, *value)) && good;
+        else if (!evaluate(e, p, value))
+            good = false, p->state = e->is_quiet ? p->state : PARAMETER_BAD;
+    }
+    return good;
+}
+
+void evaluation_stop(struct evaluation *e) {
+    struct ir_origin *places = &e->loader->output->origin;
+    for (uint32_t i = 0; i < e->moving.count; i++) {
+        const struct moving_formula *m = &e->moving.items[i];
+        ir_formula_drop(places->arena, places->formulas, bind_head(m->frame), m->formula->row,
+                        m->formula->slot, m->formula->component);
+    }
+    for (uint32_t i = 0; i < e->count; i++) {
+        const struct parameter *p = &e->items[i];
+        struct strbuf value;
+        if (!p->moves || p->state != PARAMETER_DONE)
+            continue;
+        strbuf_init(&value);
+        expression_print(p->type, e->values + (size_t)EXPRESSION_WIDTH * i, &value);
+        str text = strbuf_view(&value);
+        if (text.len && text.ptr[0] == '[')
+            text = str_slice(text, 1, text.len - 1);
+        e->scene->parameters.items[i].value = arena_copy(e->loader->input->arena, text);
+        strbuf_finish(&value);
+    }
+}
+
+void evaluation_keep(const struct evaluation *e) {
+    struct ir_formulas *formulas = e->scene->formulas;
+    formulas->results = ARENA_ARRAY(e->loader->input->arena, struct ir_result, e->count);
+    for (uint32_t i = 0; i < e->count; i++) {
+        struct ir_result *result = &formulas->results[i];
+        *result =
+            (struct ir_result){.is_known = e->items[i].state == PARAMETER_DONE, .type = e->items[i].type};
+        memcpy(result->value, e->values + (size_t)EXPRESSION_WIDTH * i, sizeof result->value);
+    }
+}
+
+static void mark_used(struct evaluation *e) {
+    // From the last to the first: what a used one is computed from is used.
+    const struct expression_scope scope = e->scope;
+    for (uint32_t i = e->ordered; i > 0; i--) {
+        struct parameter *p = &e->items[e->order[i - 1]];
+        for (uint32_t k = 0; p->is_used && k < p->part_count; k++) {
+            struct expression ignored;
+            struct expression_fault fault;
+            expression_compile(p->texts[k], &scope, &e->loader->scratch, &ignored, &fault);
+        }
+    }
+}
+
+void evaluation_tell_unused(const struct evaluation *evaluation) {
+    struct evaluation *e = (struct evaluation *)evaluation;
+    if (sink(e)->errors) // what uses it may be where the mistake is
+        return;
+    mark_used(e);
+    for (uint32_t i = 0; i < e->count; i++) {
+        const struct parameter *p = &e->items[i];
+        if (p->is_used || p->state == PARAMETER_BAD || p->ir->head.poisoned)
+            continue;
+        diag_add(sink(e), DIAG_PARAMETER_UNUSED, ir_place_label(origin(e), &p->ir->head),
+                 "nothing uses the parameter '%.*s'", STR_ARG(p->ir->name));
+        diag_help(sink(e), "use it in an expression, or remove it");
+    }
+}
