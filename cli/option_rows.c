@@ -126,7 +126,7 @@ const struct option_row option_rows[] = {
      "a picture for each frame of the scene's animation; {expressions} of 'frame' and 'time' in the values "
      "of --set move scenes too",
      SYNTAX(cli_read_frames)},
-    {"frame", 0, "N", "render view pick check inspect deps tradeoff extremes",
+    {"frame", 0, "N", "render view pick check inspect convert deps tradeoff extremes",
      "the scene as it is in frame N of its animation, counted from 0; without it, its values as they are "
      "written",
      SYNTAX(cli_read_frame)},
@@ -292,6 +292,9 @@ const struct option_row option_rows[] = {
     {"upgrade", 0, NULL, "format", "rewrite what older versions of the language spell differently",
      FLAG(upgrade)},
     {"list", 0, NULL, "explain", "list all codes, or those of a family: --list W4xx", FLAG(list)},
+    {"expanded", 0, NULL, "convert",
+     "write one file without parameters, expressions and includes: the values that they come to",
+     FLAG(expanded)},
     {"ir", 0, NULL, "inspect", "print the scene as glint understood it, in canonical form", FLAG(ir)},
     {"as", 0, "yaml|xml", "render pick check inspect convert deps diff tradeoff extremes format",
      "the spelling of standard input (the argument '-'), instead of what its first character says",

@@ -157,7 +157,7 @@ struct cli_options {
     bool audit, has_max_off;
     double max_off;            // share of pixels
     bool check, diff, upgrade; // of what changes files
-    bool ir, list, watch;
+    bool ir, expanded, list, watch;
     bool force; // overwrite
     bool trust_record;
     unsigned untrusted_seconds, untrusted_megabytes;

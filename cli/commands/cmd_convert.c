@@ -2,6 +2,8 @@
 #include "cli/commands/commands.h"
 #include "diag/codes/limit.h"
 #include "edit/convert.h"
+#include "grammar/ir_formula.h"
+#include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 
 #include <string.h>
@@ -42,6 +44,23 @@ static bool is_onto_itself(const struct cli *cli) {
            in.st_dev == out.st_dev && in.st_ino == out.st_ino;
 }
 
+static bool is_moving(const struct session *session) {
+    const uint32_t animation = (uint32_t)schema_find_row(&SCHEMA_SCENE, STR("animation"));
+    return session->origin.motion.frames > 0 && ir_walk_written(&SCHEMA_SCENE, animation, session->scene);
+}
+
+// Values in the place of all that is computed. false: reported.
+static bool expand(struct cli *cli, struct session *session) {
+    if (is_moving(session)) {
+        cli_usage(cli, cli_operand_place(cli, 0),
+                  "this scene moves, and an expanded scene is one frame of it");
+        diag_help(&cli->sink, "add --frame 0, or another frame");
+        return false;
+    }
+    ir_formulas_expand(session->scene);
+    return true;
+}
+
 int cmd_convert(struct cli *cli) {
     struct session session;
     struct session_options options = cli_session_options(cli, cli->operands[0]);
@@ -52,12 +71,23 @@ int cmd_convert(struct cli *cli) {
                   "a converted scene loses its anchors and some of its comments; choose another name");
         return status;
     }
-    if (!has_ending(cli, out))
+    if (!has_ending(cli, out) || (!cli->options.expanded &&
+                                  cli_has_no_effect(cli, "frame", "only an '--expanded' scene stands still")))
         return CLI_USAGE;
     struct strbuf text;
+    struct asset_store *store = cli->options.expanded ? asset_store_create() : NULL;
     strbuf_init(&text);
-    session_load_text(&session, &options);
+    options.text_only = cli->options.expanded;
+    if (cli->options.expanded)
+        session_load(&session, &options, store);
+    else
+        session_load_text(&session, &options);
     bool good = session.state == SESSION_LOADED && session.sink.errors == 0;
+    if (good && cli->options.expanded && !expand(cli, &session)) {
+        session_finish(&session);
+        asset_store_destroy(store);
+        return CLI_USAGE;
+    }
     if (good && !make_text(cli, &session, &text))
         diag_add(&session.sink, DIAG_OUT_OF_MEMORY, SPAN_NONE, "not enough memory to convert this scene");
     int status = cli_report(cli, &session, false);
@@ -65,5 +95,6 @@ int cmd_convert(struct cli *cli) {
         status = cli_write(cli, out, strbuf_view(&text));
     strbuf_finish(&text);
     session_finish(&session);
+    asset_store_destroy(store);
     return status;
 }

@@ -40,9 +40,10 @@ S
 cat >twins.yaml <<'S'
 glint: 1
 include: [parts.yaml]
+parameters: {side: {value: 0.9, min: 0.5, max: 1, description: from the middle}, there: [side, 0, 0], is_used: true}
 camera: {position: [0, 0, 6]}
 models:
-  - {mesh: meshes/face.obj, translation: [0.9, 0, 0]}
+  - {mesh: meshes/face.obj, translation: there, smooth: is_used}
   - {mesh: meshes/face.obj, translation: [-0.9, 0, 0]}
 spheres:
   - {center: [0, 0, -5], radius: 1, material: glass}

@@ -1,6 +1,7 @@
 // The report on a scene, for programs: docs/schema/inspect-scene-report.schema.json.
 #include "cli/commands/inspect/inspect.h"
 #include "core/json_write.h"
+#include "grammar/ir_formula.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 
@@ -53,6 +54,38 @@ static void put_counts(struct json_writer *w, const struct session *s) {
             json_write_integer(w, schema_yaml_key(row), ir_walk_list(row, scene).count);
     }
     json_close_object(w);
+}
+
+static void put_bound(struct json_writer *w, const struct ir_parameter *p, const char *row, double value) {
+    if (ir_walk_written(&SCHEMA_PARAMETER, (uint32_t)schema_find_row(&SCHEMA_PARAMETER, str_from(row)), p))
+        json_write_real(w, row, value);
+    else
+        json_write_null(w, row);
+}
+
+static void put_result(struct json_writer *w, const struct ir_result *result) {
+    if (result->type == EXPRESSION_TRUTH)
+        json_write_boolean(w, "value", result->value[0] != 0);
+    else if (result->type == EXPRESSION_NUMBER)
+        json_write_real(w, "value", result->value[0]);
+    else
+        put_vector(w, "value", (vec3){result->value[0], result->value[1], result->value[2]});
+}
+
+static void put_parameters(struct json_writer *w, const struct ir_scene *scene) {
+    json_open_list(w, "parameters");
+    for (uint32_t i = 0; i < scene->parameters.count; i++) {
+        const struct ir_parameter *p = &scene->parameters.items[i];
+        json_open_object(w, NULL);
+        json_write_text(w, "name", p->name);
+        put_result(w, &scene->formulas->results[i]);
+        json_write_text(w, "written", p->value);
+        put_bound(w, p, "min", p->min);
+        put_bound(w, p, "max", p->max);
+        json_write_text(w, "description", p->description);
+        json_close_object(w);
+    }
+    json_close_list(w);
 }
 
 static void put_bounds(struct json_writer *w, const struct session *s) {
@@ -186,6 +219,7 @@ void inspect_scene_json(const struct inspected_scene *scene, struct strbuf *out)
     json_close_list(&w);
     put_image(&w, session);
     put_counts(&w, session);
+    put_parameters(&w, session->scene);
     put_bounds(&w, session);
     put_models(&w, session);
     put_precision(&w, scene);

@@ -1,6 +1,7 @@
 // The report on a scene, for people.
 #include "cli/commands/inspect/inspect.h"
 #include "core/number.h"
+#include "grammar/ir_formula.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 
@@ -32,6 +33,37 @@ static void counts(struct strbuf *out, const struct session *s) {
         const struct schema_row *row = &SCHEMA_SCENE.rows[i];
         if (scene_is_body(row->child))
             strbuf_format(out, "%-12s%u\n", schema_yaml_key(row), ir_walk_list(row, scene).count);
+    }
+}
+
+static void bound(struct strbuf *out, const struct ir_parameter *p, const char *row, double value,
+                  const char *word) {
+    if (!ir_walk_written(&SCHEMA_PARAMETER, (uint32_t)schema_find_row(&SCHEMA_PARAMETER, str_from(row)), p))
+        return;
+    strbuf_format(out, ", %s ", word);
+    number(out, value);
+}
+
+static void parameters(struct strbuf *out, const struct ir_scene *scene) {
+    if (scene->parameters.count)
+        strbuf_cstr(out, "parameters\n");
+    for (uint32_t i = 0; i < scene->parameters.count; i++) {
+        const struct ir_parameter *p = &scene->parameters.items[i];
+        const struct ir_result *result = &scene->formulas->results[i];
+        struct strbuf value;
+        strbuf_init(&value);
+        expression_print(result->type, result->value, &value);
+        strbuf_format(out, "  %-17.*s%.*s", STR_ARG(p->name), STR_ARG(strbuf_view(&value)));
+        bound(out, p, "min", p->min, "at least");
+        bound(out, p, "max", p->max, "at most");
+        const str bare = value.len && value.data[0] == '[' ? str_slice(strbuf_view(&value), 1, value.len - 1)
+                                                           : strbuf_view(&value);
+        if (!str_equal(p->value, bare))
+            strbuf_format(out, " = %.*s", STR_ARG(p->value));
+        if (p->description.len)
+            strbuf_format(out, ": %.*s", STR_ARG(p->description));
+        strbuf_char(out, '\n');
+        strbuf_finish(&value);
     }
 }
 
@@ -134,6 +166,7 @@ static void buffers(struct strbuf *out, const struct flat_scene *flat) {
 
 void inspect_scene_text(const struct inspected_scene *scene, struct strbuf *out) {
     counts(out, scene->session);
+    parameters(out, scene->session->scene);
     bounds(out, scene->session);
     meshes(out, scene->session);
     precision_words(scene->session, &scene->precision, out);

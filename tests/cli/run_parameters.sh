@@ -1,0 +1,60 @@
+#!/bin/sh
+# run_parameters.sh GLINT SOURCE_FOLDER WORK_FOLDER: parameters and expressions from the command line.
+. "${0%/*}/lib.sh"
+
+cat >row.yaml <<'S'
+glint: 1
+parameters:
+  count: {value: 3, min: 1, max: 8}
+  pitch: 1.5
+  length: (count - 1)*pitch
+  where: [length/2, 0, 0]
+image: {width: 48, height: 32}
+camera: {position: [length/2, 1, 8], look_at: where}
+lights: [{position: [-5, 8, 5]}]
+spheres:
+  - {center: [0, 0, 0], radius: pitch/3}
+  - {center: where, radius: pitch/3}
+S
+expect "parameters are listed" 0 '^  length  *3 = .count - 1.\*pitch$' - "$glint" inspect row.yaml
+expect "a vector too" 0 '^  where  *.1.5, 0, 0. = length/2, 0, 0$' - "$glint" inspect row.yaml
+expect "bounds too" 0 '^  count  *3, at least 1, at most 8$' - "$glint" inspect row.yaml
+expect "another value" 0 '^  length  *6 = ' - "$glint" inspect row.yaml --set parameters.count=5
+expect "an expression" 0 '^  length  *4.5 = ' - "$glint" inspect row.yaml --set 'parameters.pitch=4.5/2'
+expect "of another parameter" 0 '^  length  *6 = ' - "$glint" inspect row.yaml --set parameters.pitch=count
+expect "beyond its bound" 1 - "parameter 'count' is 9; it must be at most 8" "$glint" check row.yaml --set parameters.count=9
+expect "no such parameter" 1 - "did you mean 'count'" "$glint" check row.yaml --set parameters.cout=9
+
+# What is set is what would be written.
+sed 's/pitch: 1.5/pitch: 0.9/' row.yaml >written.yaml
+expect "drawn as set" 0 - '' "$glint" render row.yaml -q --device reference --set parameters.pitch=0.9 -o set.pfm
+expect "and as written" 0 - '' "$glint" render written.yaml -q --device reference -o written.pfm
+expect "the same picture" 0 - - cmp set.pfm written.pfm
+
+# Values in the place of what is computed.
+for plain in plain.yaml plain.xml plain.json; do
+    expect "expanded, $plain" 0 - '' "$glint" convert row.yaml "$plain" --expanded
+    expect "nothing is computed" 1 - - grep -E 'arameter|pitch|length' "$plain"
+    expect "drawn" 0 - '' "$glint" render "$plain" -q --device reference -o plain.pfm
+    "$glint" render row.yaml -q --device reference -o row.pfm
+    expect "the same picture, $plain" 0 - - cmp plain.pfm row.pfm
+done
+mkdir -p parts
+printf 'glint: 1\nparameters: {tone: 0.25}\nmaterials: {red: {diffuse_color: [tone*2, 0, 0]}}\n' >parts/part.yaml
+sed 's,^parameters:,include: [parts/part.yaml]\n&,; s/radius: pitch.3}$/radius: pitch\/3, material: red}/' row.yaml >whole.yaml
+expect "with its includes" 0 'DiffuseColor r="0.5" g="0"' '' "$glint" convert whole.yaml - --expanded
+expect "the parts' parameters too" 0 '^  tone  *0.25$' - "$glint" inspect whole.yaml
+
+# What moves.
+{ cat row.yaml; printf 'animation:\n  frames: 10\n  tracks: {parameters.pitch: 1 + frame/4}\n'; } >moving.yaml
+expect "a track moves a parameter" 0 '^  length  *4$' - "$glint" inspect moving.yaml --frame 4
+expect "which is written in the frame" 0 '^  pitch: 2$' - "$glint" inspect moving.yaml --frame 4 --ir
+expect "expanded, one frame" 2 - 'add --frame 0' "$glint" convert moving.yaml - --expanded
+expect "this one" 0 'Center x="2" y="0"' '' "$glint" convert moving.yaml - --expanded --frame 4
+expect "a frame alone" 2 - "only an '--expanded' scene stands still" "$glint" convert moving.yaml - --frame 4
+sed 's/radius: pitch.3}$/radius: 0.5 + frame*0.1}/; s/^  tracks.*//' moving.yaml >formula.yaml
+expect "an expression of the frame" 0 'radius="0.8"' '' "$glint" convert formula.yaml - --expanded --frame 3
+expect "at rest it is frame 0" 0 'radius="0.5 \+ frame\*0.1"' '' "$glint" convert formula.yaml -
+sed 's/frame\*0.1/1 - frame*0.2/' formula.yaml >shrinking.yaml
+expect "checked in all frames" 1 - 'in frame 8; it must be' "$glint" check shrinking.yaml
+exit $failed
