@@ -2,6 +2,7 @@
 #include "lsp/context.h"
 #include "lsp/server_private.h"
 
+#include "core/expression.h"
 #include "core/heap.h"
 #include "core/strbuf.h"
 #include "files/files_walk.h"
@@ -45,6 +46,33 @@ static struct typed typed_at(str text, size_t offset) {
     return typed;
 }
 
+// The key of a value that has an operator, a comma in brackets or another word before the typed one: nothing
+// may end the value between them. Empty: there is none.
+static str key_of_value(str text, size_t at) {
+    bool has_comma = false; // outside of brackets that end before the place
+    int depth = 0;
+    for (; at > 0 && !strchr("\n\r{}<>", text.ptr[at - 1]); at--) {
+        const char c = text.ptr[at - 1];
+        const bool is_colon = c == ':' && at < text.len && text.ptr[at] == ' ';
+        if (c == ']' || c == ')')
+            depth++;
+        else if ((c == '[' || c == '(') && depth > 0)
+            depth--;
+        else if (c == '[' || c == '(')
+            has_comma = false; // it was between items, or arguments
+        has_comma |= c == ',' && depth == 0;
+        if (!is_colon && c != '=')
+            continue;
+        size_t begin = at - 1;
+        while (begin > 0 && is_word(text.ptr[begin - 1]))
+            begin--;
+        const bool is_compared = c == '=' && (at - begin <= 1 || (at < text.len && text.ptr[at] == '='));
+        if (!is_compared)
+            return has_comma ? STR("") : str_slice(text, begin, at - 1);
+    }
+    return STR("");
+}
+
 struct completing {
     const struct request *request;
     struct typed typed;
@@ -55,6 +83,8 @@ struct completing {
 };
 
 enum completion_kind { // LSP 3.17, "Completion Request"
+    COMPLETION_FUNCTION = 3,
+    COMPLETION_VARIABLE = 6,
     COMPLETION_PROPERTY = 10,
     COMPLETION_FILE = 17,
     COMPLETION_REFERENCE = 18,
@@ -124,6 +154,58 @@ static void offer_files(struct completing *c, enum schema_file kind) {
         else if (schema_file_fits(kind, name))
             offer(c, label, COMPLETION_FILE, NULL);
     }
+}
+
+enum {
+    INSERT_SNIPPET = 2, // LSP 3.17, "InsertTextFormat"
+};
+
+static void offer_insert(struct completing *c, str label, const char *doc, str plain, str snippet,
+                         enum completion_kind kind) {
+    bool snippets = c->request->server->has_snippets;
+    json_t *item = offer_text(c, label, kind, doc, snippets ? snippet : plain);
+    if (item && snippets)
+        json_object_set_new(item, "insertTextFormat", json_integer(INSERT_SNIPPET));
+}
+
+// ---- expressions
+
+static bool may_compute(const struct schema_row *row, str key) {
+    const char *const *names = schema_components(row->kind);
+    const bool is_text = row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_VALUES;
+    if (!is_text && !schema_may_compute(row))
+        return false;
+    if (str_equal_cstr(key, row->name) || (row->plural && str_equal_cstr(key, row->plural)))
+        return true;
+    for (int i = 0; names[i]; i++)
+        if (str_equal_cstr(key, names[i]))
+            return true;
+    return false;
+}
+
+static bool is_of_expression(str key) {
+    for (uint32_t e = 0; key.len && schema_elements[e]; e++)
+        for (uint32_t i = 0; i < schema_elements[e]->row_count; i++)
+            if (may_compute(&schema_elements[e]->rows[i], key))
+                return true;
+    return false;
+}
+
+// Parameters and the language's own words, in the place of the name that is typed.
+static void offer_expression(struct completing *c) {
+    const struct ir_scene *scene = c->request->session->scene;
+    const json_t *name;
+    size_t index;
+    json_array_foreach(json_object_get(c->request->scene->names, SCHEMA_PARAMETER.name), index, name)
+        offer(c, str_from(json_string_value(name)), COMPLETION_VARIABLE, SCHEMA_PARAMETER.doc);
+    for (uint32_t i = 0; scene && i < scene->parameters.count; i++)
+        if (scene->parameters.items[i].name.len)
+            offer(c, scene->parameters.items[i].name, COMPLETION_VARIABLE, SCHEMA_PARAMETER.doc);
+    for (const struct expression_word *own = expression_words(); own->name; own++)
+        offer_insert(c, str_from(own->name), own->doc, str_from(own->name),
+                     own->is_function ? arena_format(c->request->arena, "%s($0)", own->name)
+                                      : str_from(own->name),
+                     own->is_function ? COMPLETION_FUNCTION : COMPLETION_VARIABLE);
 }
 
 // The text is seldom complete while the user types: every attribute with the key's name counts.
@@ -200,17 +282,6 @@ static str value_of(struct completing *c, const struct context *context, uint32_
     return arena_format(arena, ": ${1:%.*s}", STR_ARG(escaped(arena, value)));
 }
 
-enum {
-    INSERT_SNIPPET = 2, // LSP 3.17, "InsertTextFormat"
-};
-
-static void offer_insert(struct completing *c, str label, const char *doc, str plain, str snippet) {
-    bool snippets = c->request->server->has_snippets;
-    json_t *item = offer_text(c, label, COMPLETION_PROPERTY, doc, snippets ? snippet : plain);
-    if (item && snippets)
-        json_object_set_new(item, "insertTextFormat", json_integer(INSERT_SNIPPET));
-}
-
 static void offer_key(struct completing *c, const struct context *context, uint32_t row, const char *name,
                       bool single) {
     struct arena *arena = c->request->arena;
@@ -223,7 +294,7 @@ static void offer_key(struct completing *c, const struct context *context, uint3
     }
     str plain = arena_format(arena, context->is_xml ? "%s=\"\"" : "%s: ", name);
     str snippet = arena_format(arena, "%s%.*s", name, STR_ARG(value_of(c, context, row, single)));
-    offer_insert(c, str_from(name), doc, plain, snippet);
+    offer_insert(c, str_from(name), doc, plain, snippet, COMPLETION_PROPERTY);
 }
 
 // After '<': the whole element, as the example has it.
@@ -235,7 +306,7 @@ static void offer_child(struct completing *c, const struct context *context, uin
     str whole = sample.len && sample.ptr[0] == '<'
                     ? escaped(c->request->arena, str_slice(sample, 1, sample.len))
                     : str_from(r->element);
-    offer_insert(c, str_from(r->element), r->doc, str_from(r->element), whole);
+    offer_insert(c, str_from(r->element), r->doc, str_from(r->element), whole, COMPLETION_PROPERTY);
 }
 
 static void offer_rows(struct completing *c, const struct context *context) {
@@ -259,9 +330,24 @@ static bool is_followed(str text, size_t at, bool is_xml) {
     return at < text.len && text.ptr[at] == (is_xml ? '=' : ':');
 }
 
+// Whether the place is in a value that may be an expression; then only the name before it is the word.
+static bool in_expression_at(str text, size_t offset, struct typed *typed) {
+    size_t begin = offset;
+    while (begin > typed->begin &&
+           expression_name_length(str_slice(text, begin - 1, offset)) == offset - begin + 1)
+        begin--;
+    const bool is_alone = typed->key.len > 0 && begin == typed->begin;
+    const str key = is_alone ? typed->key : key_of_value(text, begin);
+    if (!is_of_expression(key))
+        return false;
+    *typed = (struct typed){key, str_slice(text, begin, offset), begin};
+    return true;
+}
+
 json_t *server_completion(const struct request *request) {
     str text = document_text(request->document);
     struct typed typed = typed_at(text, request->offset);
+    const bool in_expression = in_expression_at(text, request->offset, &typed);
     struct completing completing = {.request = request,
                                     .typed = typed,
                                     .range = position_range_once(text, request->server->encoding, typed.begin,
@@ -271,6 +357,8 @@ json_t *server_completion(const struct request *request) {
     for (uint32_t e = 0; typed.key.len && schema_elements[e]; e++)
         for (uint32_t i = 0; i < schema_elements[e]->row_count; i++)
             offer_for(&completing, &schema_elements[e]->rows[i]);
+    if (in_expression)
+        offer_expression(&completing);
     if (!typed.key.len) {
         struct context context = context_at(request->document->path, text, typed.begin);
         completing.has_value = is_followed(text, request->offset, context.is_xml);

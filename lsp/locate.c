@@ -3,19 +3,6 @@
 #include "grammar/ir.h"
 #include "grammar/ir_walk.h"
 
-void locate_walk(const struct schema_element *schema, const void *element, locate_visit *visit,
-                 void *context) {
-    visit(context, schema, element);
-    for (uint32_t i = 0; i < schema->row_count; i++) {
-        const struct schema_row *row = &schema->rows[i];
-        if (row->kind == SCHEMA_ELEMENT)
-            locate_walk(row->child, schema_field_const(row, element), visit, context);
-        struct ir_any_list list = ir_walk_list(row, element);
-        for (uint32_t k = 0; k < list.count; k++)
-            locate_walk(row->child, ir_walk_item(row, list, k), visit, context);
-    }
-}
-
 uint32_t locate_source(struct session *session, str path) {
     for (uint32_t i = 0; i < session->origin.files.count; i++) {
         uint32_t source = session->origin.files.items[i].source;
@@ -44,6 +31,7 @@ static void offer(struct search *search, struct located located) {
     if (!covers(search, located.at) || (search->found.schema && size > search->size))
         return;
     search->found = located;
+    search->found.offset = search->offset;
     search->size = size;
 }
 
@@ -53,13 +41,14 @@ static void search_element(void *context, const struct schema_element *schema, c
     if (head->origin == 0 || head->origin >= search->session->origin.elements.count)
         return;
     const struct ir_element_origin *origin = &search->session->origin.elements.items[head->origin];
-    offer(search, (struct located){schema, element, NULL, false, origin->label});
+    offer(search, (struct located){schema, element, .at = origin->label});
     for (uint32_t i = 0; i < schema->row_count; i++) {
         const struct ir_row_origin *row = ir_origin_row(&search->session->origin, head, i);
         if (!row)
             continue;
-        offer(search, (struct located){schema, element, &schema->rows[i], false, row->key});
-        offer(search, (struct located){schema, element, &schema->rows[i], true, row->value});
+        offer(search, (struct located){schema, element, &schema->rows[i], .at = row->key});
+        offer(search,
+              (struct located){schema, element, &schema->rows[i], .in_value = true, .at = row->value});
     }
 }
 
@@ -124,7 +113,12 @@ bool locate_name(struct session *session, const struct located *at, struct arena
         return false;
     const struct schema_element *schema = at->schema;
     const void *named = at->element;
-    if (at->row && at->row->kind == SCHEMA_REFERENCE && at->in_value) {
+    span word = at->at;
+    const struct ir_parameter *parameter = locate_parameter(session, at, &word);
+    if (parameter) {
+        schema = &SCHEMA_PARAMETER;
+        named = parameter;
+    } else if (at->row && at->row->kind == SCHEMA_REFERENCE && at->in_value) {
         schema = at->row->child;
         named = ir_walk_referent(session->scene, at->row, schema_field_const(at->row, at->element));
     } else if (!span_equal(at->at, name_place(session, schema, named))) {
@@ -134,8 +128,12 @@ bool locate_name(struct session *session, const struct located *at, struct arena
         return false;
     out->name = ir_walk_key(schema, named);
     out->schema = schema;
+    out->element = named;
+    out->here = parameter ? word : at->at;
     out->definition = name_place(session, schema, named);
     struct users users = {session, arena, named, out};
     locate_walk(&SCHEMA_SCENE, session->scene, note_users, &users);
+    if (schema == &SCHEMA_PARAMETER)
+        locate_parameter_uses(session, named, arena, out);
     return true;
 }

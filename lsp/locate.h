@@ -4,6 +4,7 @@
 #ifndef GLINT_LSP_LOCATE_H
 #define GLINT_LSP_LOCATE_H
 
+#include "grammar/ir.h"
 #include "grammar/schema.h"
 #include "load/session.h"
 
@@ -13,6 +14,7 @@ struct located {
     const struct schema_row *row; // NULL: only the element
     bool in_value;                // else in the key
     span at;                      // of that key or value, or the element's label
+    size_t offset;                // that was asked for
 };
 
 // The innermost thing at byte `offset` of the file `path` (canonical).
@@ -24,6 +26,8 @@ uint32_t locate_source(struct session *session, str path);
 struct located_name {
     str name;
     const struct schema_element *schema; // of what has the name
+    const void *element;
+    span here; // the place that was asked about: the name
     span definition;
     struct {
         span *items;
@@ -34,6 +38,16 @@ struct located_name {
 // false: there is no name, or nothing has it.
 bool locate_name(struct session *session, const struct located *at, struct arena *arena,
                  struct located_name *out);
+
+// ---- locate_parameter.c: names of parameters in expressions
+
+// The parameter whose name is at the place, in an expression; NULL: there is none. *word: the name's place.
+const struct ir_parameter *locate_parameter(struct session *session, const struct located *at, span *word);
+// Adds the places in expressions where a parameter is used.
+void locate_parameter_uses(struct session *session, const struct ir_parameter *parameter, struct arena *arena,
+                           struct located_name *out);
+
+// ---- locate_walk.c
 
 // Calls `visit` for every element of the scene: also included ones, and materials written in place.
 typedef void locate_visit(void *context, const struct schema_element *schema, const void *element);

@@ -4,7 +4,7 @@
 
 #include "core/strbuf.h"
 #include "grammar/emit/explain.h"
-#include "grammar/ir.h"
+#include "grammar/ir_formula.h"
 #include "grammar/ir_walk.h"
 
 #include <string.h>
@@ -149,7 +149,7 @@ json_t *server_prepare_rename(const struct request *request) {
     struct located at = located_at(request);
     if (!name_at(request, &at, &name))
         return NULL;
-    return server_range(request->server, request->session, bare(request->session, at.at));
+    return server_range(request->server, request->session, bare(request->session, name.here));
 }
 
 // Whether something else of the same kind has the name.
@@ -174,6 +174,11 @@ json_t *server_rename(const struct request *request) {
     struct located at = located_at(request);
     if (!name_at(request, &at, &name))
         return NULL;
+    if (name.schema == &SCHEMA_PARAMETER && !expression_is_free(str_from(text))) {
+        request->server->refusal =
+            "a parameter's name has letters, digits and '_', and is not a word of expressions";
+        return NULL;
+    }
     if (!str_equal(str_from(text), name.name) && is_taken(request->session, name.schema, str_from(text))) {
         request->server->refusal = "another one already has this name";
         return NULL;
@@ -189,6 +194,17 @@ json_t *server_rename(const struct request *request) {
 
 // ---- hover
 
+static void add_value(const struct ir_scene *scene, const struct ir_parameter *parameter,
+                      struct strbuf *out) {
+    const struct ir_result *results = scene->formulas->results;
+    const ptrdiff_t index = parameter - scene->parameters.items;
+    if (!results || !results[index].is_known)
+        return;
+    strbuf_cstr(out, " = ");
+    expression_print(results[index].type, results[index].value, out);
+    strbuf_char(out, ',');
+}
+
 static void add_definition(const struct request *request, const struct located *at, struct strbuf *out) {
     struct session *session = request->session;
     struct located_name name;
@@ -196,15 +212,16 @@ static void add_definition(const struct request *request, const struct located *
         return;
     str text = source_text(&session->sources, name.definition);
     // The whole element, from the place of its name.
-    const void *named = ir_walk_referent(session->scene, at->row, schema_field_const(at->row, at->element));
-    const struct ir_head *head = named ? ir_walk_head(named) : NULL;
-    if (head && head->origin < session->origin.elements.count)
+    const struct ir_head *head = ir_walk_head(name.element);
+    if (head->origin < session->origin.elements.count)
         text = source_text(&session->sources, span_join(session->origin.elements.items[head->origin].label,
                                                         session->origin.elements.items[head->origin].at));
     text = position_clip(text, SNIPPET_BYTES);
     struct source_place where = source_locate(&session->sources, name.definition);
-    strbuf_format(out, "%s '%.*s' of %.*s:%u\n\n", name.schema->name, STR_ARG(name.name),
-                  STR_ARG(path_base(where.path)), where.line);
+    strbuf_format(out, "%s '%.*s'", name.schema->name, STR_ARG(name.name));
+    if (name.schema == &SCHEMA_PARAMETER)
+        add_value(session->scene, name.element, out);
+    strbuf_format(out, " of %.*s:%u\n\n", STR_ARG(path_base(where.path)), where.line);
     if (request->server->has_markdown)
         markdown_code(text, is_of_xml(session, name.definition.source) ? "xml" : "yaml", out);
     else
@@ -227,7 +244,7 @@ json_t *server_hover(const struct request *request) {
         return NULL;
     struct strbuf text;
     strbuf_init(&text);
-    if (at.row && at.row->kind == SCHEMA_REFERENCE)
+    if (at.row)
         add_definition(request, &at, &text);
     str what = at.row ? arena_format(request->arena, "%s.%s", at.schema->name, at.row->name)
                       : str_from(at.schema->name);

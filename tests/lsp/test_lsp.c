@@ -266,6 +266,43 @@ static void completes_names_words_and_files(void **state) {
     json_decref(list);
 }
 
+// A parameter is used in expressions of all files of the scene, in either spelling.
+static void knows_parameters(void **state) {
+    struct lsp_client *client = *state;
+    client_file(
+        client, "part.xml",
+        "<Scene glint=\"1\">\n"
+        "  <Sphere radius=\"height\"><Center x=\"0\" y=\"1\" z=\"2*height - top\"/></Sphere>\n</Scene>\n");
+    client_initialize(client, NULL);
+    client_open(
+        client, "main.yaml",
+        "glint: 1\ninclude: [part.xml]\nparameters:\n  height: 3\n  top: {value: height + 1, max: 9}\n"
+        "spheres:\n  - {center: [0, max(height, 2), 0], radius: top/4}\n");
+    assert_int_equal(errors(client_diagnostics(client, "main.yaml", 1)), 0);
+    json_t *place =
+        client_request(client, "textDocument/definition", client_at(client, "main.yaml", 6, 46), NULL);
+    expect_range(json_object_get(place, "range"), 4, 2, 5);
+    json_decref(place);
+    json_t *hover = client_request(client, "textDocument/hover", client_at(client, "main.yaml", 6, 22), NULL);
+    assert_non_null(strstr(client_text(json_object_get(hover, "contents"), "value"), "'height' = 3,"));
+    json_decref(hover);
+    json_t *edit = rename_to(client, client_at(client, "main.yaml", 4, 17), "h", NULL);
+    const json_t *changes = json_object_get(edit, "changes");
+    assert_int_equal(json_array_size(json_object_get(changes, client_uri(client, "main.yaml"))), 3);
+    json_t *there = json_object_get(changes, client_uri(client, "part.xml"));
+    assert_int_equal(json_array_size(there), 2);
+    expect_range(json_object_get(json_array_get(there, 0), "range"), 1, 18, 24);
+    expect_range(json_object_get(json_array_get(there, 1), "range"), 1, 51, 57);
+    json_decref(edit);
+    static const char *const taken[] = {"top", "sin", "a-b", "yes"};
+    for (size_t i = 0; i < sizeof taken / sizeof *taken; i++) {
+        json_t *error = NULL;
+        json_decref(rename_to(client, client_at(client, "main.yaml", 3, 4), taken[i], &error));
+        assert_int_equal(json_integer_value(json_object_get(error, "code")), -32803);
+        json_decref(error);
+    }
+}
+
 static void explains_outlines_and_links(void **state) {
     struct lsp_client *client = *state;
     client_initialize(client, NULL);
@@ -516,6 +553,7 @@ int main(int argc, char **argv) {
         TEST(renames_behind_anchors_and_to_free_names),
         TEST(offers_fixes),
         TEST(completes_names_words_and_files),
+        TEST(knows_parameters),
         TEST(explains_outlines_and_links),
         TEST(checks_a_part_as_part_of_its_scene),
         TEST(formats),

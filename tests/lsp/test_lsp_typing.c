@@ -123,6 +123,30 @@ static void completes_attributes(void **state) {
         expect_typing(client, &typings[i], (int)i + 2);
 }
 
+#define HEAD "glint: 1\nparameters: {height: 3, top: height + 1}\nspheres:\n  - "
+
+static void completes_expressions(void **state) {
+    static const struct typing typings[] = {
+        {"main.yaml", HEAD "{center: [0, 2*he|", "height", "height", "radius"},
+        {"main.yaml", HEAD "{radius: |", "sqrt", "sqrt($0)", "center"},
+        {"main.yaml", HEAD "{radius: height + (to|", "top", "top", "radius"},
+        {"main.yaml", HEAD "{radius: min(height, to|", "top", "top", "center"},
+        {"main.yaml", HEAD "{radius: 2, |", "center", "center: ${1:[0, 1, 0]}", "height"},
+        {"main.yaml", HEAD "{material: he|", NULL, NULL, "height"},
+        {"main.yaml", HEAD "{name: height, mate|", "material", "material: ${1:glass}", "top"},
+        {"main.yaml", HEAD "{center: {x: -hei|", "height", "height", "radius"},
+        {"main.xml",
+         "<Scene glint=\"1\"><Parameter name=\"tall\" value=\"2\"/><Sphere radius=\"2*ta|\"/></Scene>",
+         "frame", "frame", "fov"},
+    };
+    struct lsp_client *client = *state;
+    initialize_richly(client);
+    client_open(client, "main.yaml", HEAD "{center: [0, 0, 0], radius: 1}\n");
+    client_open(client, "main.xml", "<Scene glint=\"1\"/>");
+    for (size_t i = 0; i < sizeof typings / sizeof *typings; i++)
+        expect_typing(client, &typings[i], (int)i + 2);
+}
+
 // A client without snippets gets no places to fill in.
 static void completes_attributes_without_snippets(void **state) {
     static const struct typing plain[] = {
@@ -211,6 +235,7 @@ int main(int argc, char **argv) {
     program = argc > 1 ? argv[1] : "glint";
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(completes_attributes, start, stop),
+        cmocka_unit_test_setup_teardown(completes_expressions, start, stop),
         cmocka_unit_test_setup_teardown(completes_attributes_without_snippets, start, stop),
         cmocka_unit_test_setup_teardown(explains_in_markdown, start, stop),
         cmocka_unit_test_setup_teardown(shows_colours_and_takes_them, start, stop),
