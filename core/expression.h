@@ -99,6 +99,9 @@ const char *const *expression_no_words(void);
 bool expression_is_meant(str text);
 // Bytes of the name, letters, digits and '_', that the text begins with; 0: it begins with none.
 size_t expression_name_length(str text);
+// The next name in a text from *at on that can be a scene's: no function, no component, no part of #rrggbb.
+// false: there is none. *at is then, and after each name, where to go on.
+bool expression_next_name(str text, size_t *at, str *name);
 // Whether a scene may give the name to something.
 bool expression_is_free(str name);
 // Whether the text is a name alone.

@@ -108,6 +108,19 @@ size_t expression_name_length(str text) {
     return end;
 }
 
+bool expression_next_name(str text, size_t *at, str *name) {
+    while (*at < text.len) {
+        const size_t begin = *at, length = expression_name_length(str_slice(text, begin, text.len));
+        const char before = begin > 0 ? text.ptr[begin - 1] : ' ';
+        *at += length ? length : 1;
+        const bool is_part = before == '.' || before == '#' || char_is_digit(before);
+        *name = str_slice(text, begin, *at);
+        if (length && !is_part && (*at == text.len || text.ptr[*at] != '('))
+            return true;
+    }
+    return false;
+}
+
 void expression_print(enum expression_type type, const double value[EXPRESSION_WIDTH], struct strbuf *out) {
     char digits[NUMBER_FORMAT_MAX];
     if (type == EXPRESSION_TRUTH) {

@@ -4,36 +4,6 @@
 #include "grammar/ir_formula.h"
 #include "grammar/ir_walk.h"
 
-// ---- names in a text
-
-struct words {
-    str text;
-    size_t at;
-    bool in_tag; // an element of XML: expressions are between quotes
-    char quote;  // that is open
-};
-
-// The next word that can be a parameter's name: no function, no component, no part of #rrggbb.
-static bool next_word(struct words *words, size_t *begin, size_t *end) {
-    const str text = words->text;
-    while (words->at < text.len) {
-        const char c = text.ptr[words->at];
-        const size_t length = expression_name_length(str_slice(text, words->at, text.len));
-        const char before = words->at > 0 ? text.ptr[words->at - 1] : ' ';
-        *begin = words->at;
-        *end = words->at + length;
-        words->at += length ? length : 1;
-        if (words->in_tag && (c == '"' || c == '\''))
-            words->quote = words->quote == c ? 0 : words->quote ? words->quote : c;
-        if (!length || (words->in_tag && !words->quote))
-            continue;
-        const bool is_part = before == '.' || before == '#' || (before >= '0' && before <= '9');
-        if (!is_part && (*end == text.len || text.ptr[*end] != '('))
-            return true;
-    }
-    return false;
-}
-
 // ---- the expressions of an element
 
 typedef void visit_text(void *context, span at);
@@ -60,17 +30,36 @@ struct hunt {
     span word;
 };
 
-static void look_at(void *context, span at) {
-    struct hunt *hunt = context;
+static void look_at_part(struct hunt *hunt, span at) {
     const str text = source_text(&hunt->session->sources, at);
-    struct words words = {.text = text, .in_tag = text.len && text.ptr[0] == '<'};
-    size_t begin, end;
-    while (next_word(&words, &begin, &end)) {
-        const span word = {at.source, at.begin + (uint32_t)begin, at.begin + (uint32_t)end};
-        if (hunt->name.len && str_equal(str_slice(text, begin, end), hunt->name))
+    size_t end = 0;
+    str name;
+    while (expression_next_name(text, &end, &name)) {
+        const span word = {at.source, at.begin + (uint32_t)(end - name.len), at.begin + (uint32_t)end};
+        if (hunt->name.len && str_equal(name, hunt->name))
             *ARENA_PUSH(hunt->arena, &hunt->out->uses) = word;
         else if (!hunt->name.len && word.begin <= hunt->offset && hunt->offset <= word.end)
             hunt->word = word;
+    }
+}
+
+// In an element of XML expressions are between quotes.
+static void look_at(void *context, span at) {
+    struct hunt *hunt = context;
+    const str text = source_text(&hunt->session->sources, at);
+    size_t begin = 0;
+    if (text.len == 0 || text.ptr[0] != '<') {
+        look_at_part(hunt, at);
+        return;
+    }
+    for (size_t i = 0; i < text.len; i++) {
+        const bool is_open = begin > 0;
+        if (is_open && text.ptr[i] == text.ptr[begin - 1]) {
+            look_at_part(hunt, (span){at.source, at.begin + (uint32_t)begin, at.begin + (uint32_t)i});
+            begin = 0;
+        } else if (!is_open && (text.ptr[i] == '"' || text.ptr[i] == '\'')) {
+            begin = i + 1;
+        }
     }
 }
 

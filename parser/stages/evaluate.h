@@ -28,6 +28,7 @@ struct parameter {
     bool moves;    // depends on the frame, or is moved by a track
     bool is_moved; // by a track, which has put its value there
     bool is_used;
+    bool is_ring; // depends on itself, which was reported
 };
 
 // A formula that depends on the frame.

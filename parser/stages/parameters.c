@@ -11,6 +11,10 @@
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"
 
+enum {
+    RING_NAMES_MOST = 8 // that a message lists
+};
+
 static struct diag_sink *sink(const struct evaluation *e) {
     return e->loader->input->sink;
 }
@@ -76,33 +80,15 @@ static bool has_good_name(const struct evaluation *e, const struct parameter *p)
 
 // ---- types
 
-static bool compile(struct evaluation *e, uint32_t index);
-
 static bool find(const void *context, str name, struct expression_name *found) {
     struct evaluation *e = (struct evaluation *)context;
     const uint32_t number = str_map_find(&e->by_name, name);
-    if (!number || !compile(e, number - 1))
+    if (!number || e->items[number - 1].state != PARAMETER_DONE)
         return false;
     struct parameter *p = &e->items[number - 1];
     p->is_used = true;
     *found = (struct expression_name){p->type, number - 1, p->moves};
     return true;
-}
-
-// The parameters from the one that begins the ring on; `last` uses it again.
-static void report_ring(struct evaluation *e, uint32_t first) {
-    struct strbuf chain;
-    strbuf_init(&chain);
-    struct parameter *p = &e->items[first];
-    for (uint32_t i = 0; i < e->count; i++)
-        if (e->items[i].state == PARAMETER_OPEN)
-            strbuf_format(&chain, "%s%.*s", chain.len ? ", " : "", STR_ARG(e->names[i]));
-    const bool alone = str_equal(strbuf_view(&chain), e->names[first]);
-    diag_add(sink(e), DIAG_PARAMETER_RING, place_of(e, p, "value"),
-             "parameter '%.*s' depends on itself%s%.*s", STR_ARG(e->names[first]),
-             alone ? "" : ", by way of: ", alone ? 0 : (int)chain.len, alone ? "" : strbuf_view(&chain).ptr);
-    diag_help(sink(e), "give one of them a value of its own");
-    strbuf_finish(&chain);
 }
 
 static bool read_hex(str text, uint32_t *hex) {
@@ -163,18 +149,65 @@ static bool bounds_fit(const struct evaluation *e, const struct parameter *p) {
     return false;
 }
 
-static bool compile(struct evaluation *e, uint32_t index) {
+// After all that its expression names.
+static void compile(struct evaluation *e, uint32_t index) {
     struct parameter *p = &e->items[index];
-    if (p->state == PARAMETER_OPEN)
-        report_ring(e, index);
-    if (p->state != PARAMETER_NEW)
-        return p->state == PARAMETER_DONE;
-    p->state = PARAMETER_OPEN;
     const bool good = !p->ir->head.poisoned && has_good_name(e, p) && compile_parts(e, p) && bounds_fit(e, p);
     p->state = good ? PARAMETER_DONE : PARAMETER_BAD;
     if (good)
         e->order[e->ordered++] = index;
-    return good;
+}
+
+// A parameter whose names are being read, and how far.
+struct visit {
+    uint32_t index;
+    size_t at;
+};
+
+// The last of the stack names `first`, which is further down.
+static void report_ring(struct evaluation *e, const struct visit *stack, uint32_t depth, uint32_t first) {
+    struct strbuf chain;
+    strbuf_init(&chain);
+    uint32_t begin = depth - 1;
+    while (stack[begin].index != first)
+        begin--;
+    for (uint32_t i = begin; i < depth && i < begin + RING_NAMES_MOST; i++)
+        strbuf_format(&chain, "%s%.*s", chain.len ? ", " : "", STR_ARG(e->names[stack[i].index]));
+    if (depth - begin > RING_NAMES_MOST)
+        strbuf_format(&chain, " and %u more", depth - begin - RING_NAMES_MOST);
+    const bool alone = depth - begin == 1;
+    diag_add(sink(e), DIAG_PARAMETER_RING, place_of(e, &e->items[first], "value"),
+             "parameter '%.*s' depends on itself%s%.*s", STR_ARG(e->names[first]),
+             alone ? "" : ", by way of: ", alone ? 0 : (int)chain.len, alone ? "" : strbuf_view(&chain).ptr);
+    diag_help(sink(e), "give one of them a value of its own");
+    e->items[first].is_ring = true;
+    strbuf_finish(&chain);
+}
+
+// Those that an expression names first. A chain of them may be long: no recursion.
+static void compile_all(struct evaluation *e) {
+    struct visit *stack = ARENA_ARRAY(&e->loader->scratch, struct visit, e->count + 1);
+    for (uint32_t i = 0; i < e->count; i++) {
+        uint32_t depth = 0;
+        if (e->items[i].state == PARAMETER_NEW)
+            stack[depth++] = (struct visit){i, 0};
+        while (depth > 0) {
+            struct visit *top = &stack[depth - 1];
+            e->items[top->index].state = PARAMETER_OPEN;
+            str name;
+            if (!expression_next_name(e->items[top->index].ir->value, &top->at, &name)) {
+                compile(e, top->index);
+                depth--;
+                continue;
+            }
+            const uint32_t number = str_map_find(&e->by_name, name);
+            struct parameter *p = number ? &e->items[number - 1] : NULL;
+            if (p && p->state == PARAMETER_OPEN && !p->is_ring)
+                report_ring(e, stack, depth, number - 1);
+            else if (p && p->state == PARAMETER_NEW)
+                stack[depth++] = (struct visit){number - 1, 0};
+        }
+    }
 }
 
 // "parameters.height", "parameters[height]": the parameter that a track names. 0: none, else 1 + its index.
@@ -221,8 +254,7 @@ struct evaluation *evaluation_begin(struct loader *loader, struct ir_scene *scen
         *number = *number ? *number : i + 1;
     }
     mark_moved(e);
-    for (uint32_t i = 0; i < e->count; i++)
-        compile(e, i);
+    compile_all(e);
     // Used by parameters that nothing uses is not used.
     for (uint32_t i = 0; i < e->count; i++)
         e->items[i].is_used = false;

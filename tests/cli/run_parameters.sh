@@ -25,6 +25,13 @@ expect "of another parameter" 0 '^  length  *6 = ' - "$glint" inspect row.yaml -
 expect "beyond its bound" 1 - "parameter 'count' is 9; it must be at most 8" "$glint" check row.yaml --set parameters.count=9
 expect "no such parameter" 1 - "did you mean 'count'" "$glint" check row.yaml --set parameters.cout=9
 
+# However many are computed from each other.
+awk 'BEGIN {print "glint: 1\nparameters:"; for (i = 0; i < 100000; i++) printf "  p%d: p%d + 1\n", i, i + 1
+    print "  p100000: 1\nspheres: [{center: [0, 0, 0], radius: p0}]"}' >chain.yaml
+expect "a long chain" 0 - '' "$glint" check chain.yaml
+sed 's/p100000: 1/p100000: p0/' chain.yaml >ring.yaml
+expect "a long ring" 1 - "'p0' depends on itself, by way of: p0, p1, p2, p3, p4, p5, p6, p7 and 99993 more" "$glint" check ring.yaml
+
 # What is set is what would be written.
 sed 's/pitch: 1.5/pitch: 0.9/' row.yaml >written.yaml
 expect "drawn as set" 0 - '' "$glint" render row.yaml -q --device reference --set parameters.pitch=0.9 -o set.pfm
