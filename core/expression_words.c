@@ -215,12 +215,23 @@ static bool is_component(str text, size_t dot) {
     return text.len > dot + 1 && text.ptr[dot] == '.' && length == 1 && memchr("xyz", text.ptr[dot + 1], 3);
 }
 
+// Several values: none of them is the whole.
+static bool is_list(str text) {
+    int depth = 0;
+    for (size_t i = 0; i < text.len; i++) {
+        depth += (text.ptr[i] == '(') - (text.ptr[i] == ')');
+        if (text.ptr[i] == ',' && depth == 0)
+            return true;
+    }
+    return false;
+}
+
 bool expression_is_meant(str text) {
     double ignored;
     enum token before = TOKEN_END, last = TOKEN_END, token;
     str name = STR(""), one = STR("");
     size_t at = 0;
-    if (number_parse(text, &ignored) == NUMBER_OK || is_no_word(text))
+    if (number_parse(text, &ignored) == NUMBER_OK || is_no_word(text) || is_list(text))
         return false;
     if (expression_is_name(text))
         return true;

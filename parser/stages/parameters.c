@@ -102,6 +102,12 @@ static bool compile_parts(struct evaluation *e, struct parameter *p) {
         p->type = EXPRESSION_TRIPLE;
         return true;
     }
+    if (str_starts_with(p->ir->value, STR("#"))) {
+        diag_add(sink(e), DIAG_BAD_COLOR, at, "parameter '%.*s': '%.*s' is not a colour",
+                 STR_ARG(p->ir->name), STR_ARG(say_text(&e->loader->scratch, p->ir->value)));
+        diag_help(sink(e), "six hexadecimal digits, as in #ff8800");
+        return false;
+    }
     const uint32_t count = ir_values_count(p->ir->value);
     if (count != 1 && count != 3) {
         diag_add(sink(e), DIAG_WRONG_COUNT, at,

@@ -292,10 +292,10 @@ static void what_is_meant(void **state) {
         "f(",     "p.x",           "(n)",       "1 if n else 2", "a ? b : c",  "y",  "not open",
         "3m - 2", "n==2",          "2*(1 + 1)", "höhe",          "1e3 + 400"};
     static const char *const plain[] = {
-        "yes",      "on",        "~",   "null",    "0x10",    "1_000",  "1:30",    ".inf",
-        "1e",       "3m",        "50%", "1,5",     "007",     "",       "1 2 3",   "640x480",
-        "true",     "16:9",      "5",   "-1.5e-3", "1 m",     "(0, 0)", "#c08050", "a b",
-        "wood.png", "https://x", "- 5", "1e+400",  "-1e-400", "2E+3",   "\u22125", "5\u20133"};
+        "yes",    "on",         "~",     "null",    "0x10",    "1_000",   "1:30",     ".inf",      "1e",
+        "3m",     "50%",        "1,5",   "007",     "",        "1 2 3",   "640x480",  "true",      "16:9",
+        "5",      "-1.5e-3",    "1 m",   "(0, 0)",  "#c08050", "a b",     "wood.png", "https://x", "- 5",
+        "1e+400", "0, 30*r, 0", "1,5*x", "-1e-400", "2E+3",    "\u22125", "5\u20133"};
     (void)state;
     for (size_t i = 0; i < sizeof meant / sizeof *meant; i++)
         if (!expression_is_meant(str_from(meant[i])))
