@@ -141,6 +141,7 @@ struct cli_options {
     const char *base; // folder of standard input
     enum cli_color color;
     struct cli_list sets, asset_paths;
+    int32_t frame;              // of --frame, which is among the sets too
     struct cli_list severities; // the codes whose severity was given
     struct limits limits;
     bool limit_help;
@@ -241,6 +242,13 @@ void cli_option_help(struct strbuf *out, const struct cli_command *command);
 bool cli_parse_options(struct cli *cli, const struct cli_command *command, int first);
 // Whether the given options go together, as far as rows say.
 bool cli_judge_options(struct cli *cli);
+// ---- fill_sets.c: expressions in braces in the values of --set
+
+// Replaces them in one option by their values in a frame; fps: 0: 25. false: reported.
+bool cli_fill_set(struct cli *cli, str *set, int32_t frame, double fps, bool *filled);
+// In all of them, in the frame of --frame; without it, in frame 0.
+bool cli_fill_sets(struct cli *cli);
+
 // Reads the settings that --config names, and lays the other options over them. false: a mistake in the file
 // went to cli->sink.
 bool cli_take_config(struct cli *cli);

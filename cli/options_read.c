@@ -233,6 +233,7 @@ bool cli_read_frame(struct cli *cli, int arg, const struct option_row *row, cons
         cli_usage(cli, arg, "--frame takes a whole number from 0, not '%s'", text);
         return false;
     }
+    cli->options.frame = frame;
     *(str *)ARENA_PUSH(&cli->arena, &cli->options.sets) =
         arena_format(&cli->arena, "animation.frame=%d", (int)frame);
     return true;

@@ -325,7 +325,7 @@ static int run_command(struct cli *cli, const struct cli_command *command) {
         if (cli->operands[i][0] == '\0')
             return cli_usage(cli, cli_operand_place(cli, i), "'glint %s' needs %s, but this is empty",
                              command->name, command->operands);
-    if (!cli_judge_options(cli))
+    if (!cli_judge_options(cli) || (!cli->options.batch.has_frames && !cli_fill_sets(cli)))
         return CLI_USAGE;
     int status = cli_take_stream(cli, command);
     cli->command = command;

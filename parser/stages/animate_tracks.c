@@ -7,7 +7,9 @@
 #include "core/number.h"
 #include "core/srgb.h"
 #include "grammar/ir_values.h"
+#include "grammar/ir_walk.h"
 #include "parser/bind/say.h"
+#include "parser/bind/visit.h"
 #include "parser/tree/mend.h"
 
 #include <stdlib.h>
@@ -224,6 +226,24 @@ static bool not_a_number(const struct motion *motion, span at, str text, enum ex
     return false;
 }
 
+static bool is_of_frame(const struct motion *motion, str text, span at) {
+    const struct diag_expression expression = {.text = text, .at = at};
+    size_t end = 0;
+    str name;
+    while (expression_next_name(text, &end, &name)) {
+        if (!str_map_find(&motion->evaluation->by_name, name))
+            continue;
+        diag_add(sink(motion), DIAG_TRACK_VALUE,
+                 diag_expression_part(motion->loader->input->sources, &expression, end - name.len, end),
+                 "what moves a parameter cannot use the parameter '%.*s', which may be computed from it",
+                 STR_ARG(name));
+        diag_help(sink(motion),
+                  "without the track, an expression of frame or time in the parameter itself can");
+        return false;
+    }
+    return true;
+}
+
 static bool compile(const struct motion *motion, const struct moving *m, str text, span at, int32_t frame,
                     struct moving_text *out) {
     // What moves a parameter is not computed from others, which may be computed from it.
@@ -232,6 +252,8 @@ static bool compile(const struct motion *motion, const struct moving *m, str tex
     bool all_numbers = true;
     str rest = text;
     *out = (struct moving_text){0};
+    if (m->parameter && !is_of_frame(motion, text, at))
+        return false;
     uint32_t hex;
     if (m->color && read_hex(text, &hex)) {
         for (int i = 0; i < 3; i++) {
@@ -406,6 +428,37 @@ static bool has_one_form(const struct motion *motion, const struct ir_track *tra
     return false;
 }
 
+// A number in a list that several files add to is another entry's once one of them changes.
+static void tell_counted(const struct motion *motion, const struct override *path) {
+    bool single;
+    const int number = schema_find_yaml(&SCHEMA_SCENE, path->steps[0].text, &single);
+    const struct schema_row *row = number < 0 ? NULL : &SCHEMA_SCENE.rows[number];
+    if (!row || row->many != SCHEMA_SEQUENCE || path->step_count < 2 || path->steps[1].kind != OVERRIDE_INDEX)
+        return;
+    const struct ir_any_list list = ir_walk_list(row, motion->scene);
+    const struct ir_origin *places = origin(motion);
+    const uint32_t last = list.count - 1;
+    if (ir_place_label(places, ir_walk_item(row, list, 0)).source ==
+        ir_place_label(places, ir_walk_item(row, list, last)).source)
+        return;
+    const int name_row = visit_name_row(row->child);
+    const void *item = ir_walk_item(row, list, path->steps[1].index);
+    const str name =
+        name_row < 0 ? STR("") : *(const str *)schema_field_const(&row->child->rows[name_row], item);
+    diag_add(
+        sink(motion), DIAG_TRACK_COUNTED, path->steps[1].at,
+        "'%s[%u]' is counted over several files: where one of them gets another entry, something else moves",
+        schema_yaml_key(row), path->steps[1].index);
+    diag_note(sink(motion), ir_place_label(places, item), "now it is this one");
+    if (name.len) {
+        diag_help(sink(motion), "write %s[%.*s]", schema_yaml_key(row), STR_ARG(name));
+        diag_fix(sink(motion), true, path->steps[1].at,
+                 arena_format(scratch(motion), "[%.*s]", STR_ARG(name)));
+    } else {
+        diag_help(sink(motion), "give it a name, and write the name in the brackets");
+    }
+}
+
 static bool read_track(struct motion *motion, const struct ir_track *track, struct moving *m) {
     struct loader *loader = motion->loader;
     struct override *path = ARENA_NEW(scratch(motion), struct override);
@@ -421,6 +474,7 @@ static bool read_track(struct motion *motion, const struct ir_track *track, stru
     if (!has_one_form(motion, track) || !override_parse_path(path) || !override_walk(path, &target) ||
         !take_target(motion, m, &target))
         return false;
+    tell_counted(motion, path);
     if (track->keys.count)
         return take_keys(motion, m);
     if (!compile(motion, m, track->value, value_place(motion, track), 0, &m->text))

@@ -64,4 +64,18 @@ expect "an expression of the frame" 0 'radius="0.8"' '' "$glint" convert formula
 expect "at rest it is frame 0" 0 'radius="0.5 \+ frame\*0.1"' '' "$glint" convert formula.yaml -
 sed 's/frame\*0.1/1 - frame*0.2/' formula.yaml >shrinking.yaml
 expect "checked in all frames" 1 - 'in frame 8; it must be' "$glint" check shrinking.yaml
+
+# Braces are filled by every command, in one frame.
+expect "braces" 0 '^  length  *5 = ' '' "$glint" inspect row.yaml --set 'parameters.pitch={2 + frame + 0.5}'
+expect "in a frame" 0 '^  length  *10$' '' "$glint" inspect moving.yaml --frame 4 --set 'parameters.count={frame + 2}'
+expect "wrong braces" 2 - "there is no number 'fram'" "$glint" check row.yaml --set 'parameters.pitch={2 + fram}'
+
+# Models of one mesh are one line.
+printf 'o t\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >tri.obj
+{ printf 'glint: 1\ncamera: {position: [0, 0, 9]}\nlights: [{position: [0, 9, 9]}]\nmodels:\n'
+    for i in 1 2 3; do printf '  - {mesh: tri.obj, translation: [%d, 0, 0]}\n' $i; done
+    printf '  - {name: other, mesh: two.obj}\n'; } >crowd.yaml
+cp tri.obj two.obj
+expect "grouped" 0 '^  3 models, tri.obj: 1 triangles, open' - "$glint" inspect crowd.yaml
+expect "and one" 0 '^  other, two.obj: 1 triangles, open' - "$glint" inspect crowd.yaml
 exit $failed

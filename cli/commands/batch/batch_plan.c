@@ -1,10 +1,8 @@
 // From the command line to jobs: scenes, in each the sweep's grid, in each the frames, in each the cameras.
 #include "cli/commands/batch/batch_job.h"
-#include "core/expression.h"
 #include "diag/codes/command.h"
 #include "diag/codes/file.h"
 #include "diag/codes/limit.h"
-#include "diag/diag_expression.h"
 #include "files/stream.h"
 #include "grammar/ir.h"
 
@@ -83,29 +81,6 @@ static int take_scenes(struct cli *cli, struct scenes *scenes) {
 
 // ---- settings of a frame
 
-// Fills the braces of --set option `set` with their values.
-static bool fill(struct batch *batch, uint32_t set, int32_t frame, str *out, bool *filled) {
-    struct cli *cli = batch->cli;
-    const str text = cli->options.sets.items[set];
-    const struct expression_at at = {.frame = frame, .time = frame / (batch->fps > 0 ? batch->fps : 25)};
-    struct expression_fault fault;
-    struct strbuf buffer;
-    strbuf_init(&buffer);
-    const bool good = expression_fill(text, &at, &buffer, filled, &fault);
-    *out = arena_copy(&cli->arena, strbuf_view(&buffer));
-    strbuf_finish(&buffer);
-    if (good)
-        return true;
-    const uint32_t source =
-        source_add(&cli->sources, SOURCE_KIND_OPTION, STR("--set"), arena_copy(&cli->arena, text));
-    const struct diag_expression expression = {
-        .text = text,
-        .at = {source, 0, (uint32_t)text.len},
-        .suffix = arena_format(&cli->arena, ", in frame %d", (int)frame).ptr};
-    diag_expression_fault(&cli->sink, &cli->sources, DIAG_USAGE, &expression, &fault);
-    return false;
-}
-
 // Collects the frame's --set options, then `values` of the sweep, then the frame of the scene's own
 // animation.
 static bool take_sets(struct batch *batch, const struct scene_of *scene, const str *values,
@@ -118,7 +93,7 @@ static bool take_sets(struct batch *batch, const struct scene_of *scene, const s
     for (uint32_t i = 0; i < given && good; i++) {
         bool filled = false;
         sets[i] = cli->options.sets.items[i];
-        good = !job->has_frame || fill(batch, i, job->frame, &sets[i], &filled);
+        good = !job->has_frame || cli_fill_set(cli, &sets[i], job->frame, batch->fps, &filled);
         *moves |= filled;
     }
     for (uint32_t i = 0; i < b->sweeps.count; i++) {

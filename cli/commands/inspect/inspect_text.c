@@ -1,9 +1,12 @@
 // The report on a scene, for people.
 #include "cli/commands/inspect/inspect.h"
+#include "core/heap.h"
 #include "core/number.h"
 #include "grammar/ir_formula.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
+
+#include <stdlib.h>
 
 static void number(struct strbuf *out, double value) {
     char text[NUMBER_FORMAT_MAX];
@@ -81,15 +84,57 @@ static void bounds(struct strbuf *out, const struct session *s) {
     strbuf_char(out, '\n');
 }
 
-static void meshes(struct strbuf *out, const struct session *s) {
+// Models of one mesh.
+struct mesh_use {
+    const struct mesh *mesh;
+    uint32_t first, count; // models: the index of the first
+};
+
+static int by_mesh(const void *a, const void *b) {
+    const struct mesh_use *x = a, *y = b;
+    if (x->mesh != y->mesh)
+        return (uintptr_t)x->mesh < (uintptr_t)y->mesh ? -1 : 1;
+    return x->first < y->first ? -1 : x->first > y->first;
+}
+
+static int by_first(const void *a, const void *b) {
+    const struct mesh_use *x = a, *y = b;
+    return x->first < y->first ? -1 : x->first > y->first;
+}
+
+// In the order of their first models; the caller frees the list. *count stays 0 without memory.
+static struct mesh_use *find_uses(const struct session *s, uint32_t *count) {
+    struct mesh_use *uses = heap_array(s->assets.model_count, sizeof *uses);
+    for (uint32_t i = 0; uses && i < s->assets.model_count; i++)
+        uses[i] = (struct mesh_use){s->assets.models[i].mesh, i, 1};
+    if (!uses || s->assets.model_count == 0)
+        return uses;
+    qsort(uses, s->assets.model_count, sizeof *uses, by_mesh);
     for (uint32_t i = 0; i < s->assets.model_count; i++) {
-        const struct mesh *mesh = s->assets.models[i].mesh;
-        const struct ir_model *model = &s->scene->models.items[i];
+        if (*count && uses[*count - 1].mesh == uses[i].mesh)
+            uses[*count - 1].count++;
+        else
+            uses[(*count)++] = uses[i];
+    }
+    qsort(uses, *count, sizeof *uses, by_first);
+    return uses;
+}
+
+// A line a mesh, not a model.
+static void meshes(struct strbuf *out, const struct session *s) {
+    uint32_t count = 0;
+    struct mesh_use *uses = find_uses(s, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        const struct mesh *mesh = uses[i].mesh;
+        const struct ir_model *model = &s->scene->models.items[uses[i].first];
         if (!mesh)
             continue;
         const str shown = model->mesh.name.len ? model->mesh.name : mesh->path;
-        strbuf_format(out, "  %.*s%s%.*s: %u triangles, %s", STR_ARG(model->name),
-                      model->name.len ? ", " : "", STR_ARG(shown), mesh->triangle_count,
+        if (uses[i].count > 1)
+            strbuf_format(out, "  %u models, ", uses[i].count);
+        else
+            strbuf_format(out, "  %.*s%s", STR_ARG(model->name), model->name.len ? ", " : "");
+        strbuf_format(out, "%.*s: %u triangles, %s", STR_ARG(shown), mesh->triangle_count,
                       mesh->closed ? "closed" : "open");
         if (!mesh->closed)
             strbuf_format(out, " (%u edges, the first at %s %u of the mesh)", mesh->open_edges,
@@ -98,6 +143,7 @@ static void meshes(struct strbuf *out, const struct session *s) {
             strbuf_format(out, ", %u without area", mesh->zero_area);
         strbuf_cstr(out, mesh->turned ? ", turned outward\n" : "\n");
     }
+    free(uses);
 }
 
 static void features(struct strbuf *out, const struct inspected_scene *scene) {
