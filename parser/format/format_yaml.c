@@ -192,6 +192,18 @@ static uint32_t block_text_indent(const struct printer *p, str text, uint32_t di
     return UINT32_MAX;
 }
 
+// Where the last line that is not empty ends, with its break: what follows does not belong to the text,
+// unless its header says so.
+static size_t block_text_end(str text, size_t at, uint32_t from) {
+    size_t end = at;
+    while (at < text.len) {
+        const str line = take_block_line(text, &at, true);
+        if (line.len > from || skip_blanks(line).len)
+            end = at;
+    }
+    return end;
+}
+
 static void put_block_text(struct printer *p, enum join join, uint32_t indent) {
     struct yaml_token token = *peek(p);
     begin_token(p, &token, join, indent);
@@ -203,10 +215,12 @@ static void put_block_text(struct printer *p, enum join join, uint32_t indent) {
         hash++;
     str header = str_trim(str_slice(whole, 0, hash));
     uint32_t digit = 0;
+    bool keeps_breaks = false;
     for (size_t i = 1; i < header.len; i++) {
         digit = header.ptr[i] >= '1' && header.ptr[i] <= '9' ? (uint32_t)(header.ptr[i] - '0') : digit;
-        p->keeps_breaks = p->keeps_breaks || header.ptr[i] == '+';
+        keeps_breaks = keeps_breaks || header.ptr[i] == '+';
     }
+    p->keeps_breaks = p->keeps_breaks || keeps_breaks;
     format_lines_text(p->lines, header);
     if (hash < whole.len) {
         uint32_t place = token.begin + (uint32_t)hash;
@@ -215,6 +229,8 @@ static void put_block_text(struct printer *p, enum join join, uint32_t indent) {
     }
     uint32_t from = block_text_indent(p, text, digit);
     uint32_t to = digit ? p->level.written + digit : indent;
+    if (!keeps_breaks)
+        text.len = block_text_end(text, at, from);
     uint32_t end = token.begin + (uint32_t)whole.len, empty = 0;
     while (at < text.len) {
         str line = take_block_line(text, &at, false);
