@@ -2,10 +2,15 @@
 
 #include "parser/format/format_internal.h"
 
+// Whether the last line has an end, after which there may be LS and PS: by themselves they are text.
 static bool ends_line(str text) {
     size_t end = text.len;
-    while (end > 0 && char_is_blank(text.ptr[end - 1]))
-        end--;
+    while (end > 0) {
+        const bool separator = end > 2 && str_yaml_break_length(text, end - 3) == 3;
+        if (!separator && !char_is_blank(text.ptr[end - 1]))
+            break;
+        end -= separator ? 3 : 1;
+    }
     const bool ends_with_nel = end > 1 && text.ptr[end - 1] == '\x85' && text.ptr[end - 2] == '\xC2';
     return ends_with_nel || (end > 0 && char_is_break(text.ptr[end - 1]));
 }

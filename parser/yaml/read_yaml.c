@@ -150,6 +150,10 @@ static bool find_swallowed(struct yaml_reader *r, uint32_t at, uint32_t token, s
     return true;
 }
 
+static bool is_block_text(yaml_scalar_style_t style) {
+    return style == YAML_LITERAL_SCALAR_STYLE || style == YAML_FOLDED_SCALAR_STYLE;
+}
+
 static void on_scalar(struct yaml_reader *r) {
     uint32_t begin = yaml_byte(r, r->event.start_mark);
     uint32_t end = yaml_byte(r, r->event.end_mark);
@@ -193,6 +197,8 @@ static void on_scalar(struct yaml_reader *r) {
     r->last_scalar = added;
     begin_token(r, added);
     end_token(r, stop);
+    if (is_block_text(r->event.data.scalar.style))
+        r->line_entry = 0; // it ends on the line after it
     if (r->event.data.scalar.anchor)
         yaml_anchor_add(r, str_from((const char *)r->event.data.scalar.anchor), p.anchor, added);
     yaml_put(r, added);

@@ -47,8 +47,6 @@ void yaml_gap(struct yaml_reader *r, uint32_t end) {
     while (last > r->text->begin && char_is_blank(text.ptr[last - 1]))
         last--;
     bool same_line = r->seen_token && last > r->text->begin && !str_yaml_break_before(text, last);
-    if (!same_line)
-        r->line_entry = 0;
     while (at < end) {
         char c = text.ptr[at];
         uint32_t stop = at + 1;
