@@ -65,6 +65,13 @@ const struct ir_row_origin *ir_origin_row(const struct ir_origin *origin, const 
     return NULL;
 }
 
+bool ir_origin_is_xml(const struct ir_origin *origin, uint32_t source) {
+    for (uint32_t i = 0; i < origin->files.count; i++)
+        if (origin->files.items[i].source == source)
+            return origin->files.items[i].is_xml;
+    return false;
+}
+
 span ir_place_label(const struct ir_origin *origin, const struct ir_head *head) {
     if (head->origin >= origin->elements.count)
         return SPAN_NONE;

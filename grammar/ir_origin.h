@@ -83,5 +83,7 @@ span ir_place_value(const struct ir_origin *origin, const struct ir_head *head,
 span ir_place_key(const struct ir_origin *origin, const struct ir_head *head,
                   const struct schema_element *schema, const char *row_name);
 span ir_place_label(const struct ir_origin *origin, const struct ir_head *head);
+// Whether a source is a file of the scene that is written in XML.
+bool ir_origin_is_xml(const struct ir_origin *origin, uint32_t source);
 
 #endif

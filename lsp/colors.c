@@ -6,6 +6,7 @@
 
 #include "core/srgb.h"
 #include "grammar/ir.h"
+#include "grammar/ir_formula.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,8 +42,9 @@ static void add_colors(void *context, const struct schema_element *schema, const
         const struct schema_row *row = &schema->rows[i];
         const struct ir_row_origin *place = ir_origin_row(&session->origin, head, i);
         if (row->kind != SCHEMA_COLOR || row->many != SCHEMA_ONE || !place ||
-            place->value.source != coloring->source || (head->poisoned >> i & 1))
-            continue;
+            place->value.source != coloring->source || (head->poisoned >> i & 1) ||
+            ir_formula_in(session->origin.formulas, head, row))
+            continue; // a picked colour would take the place of an expression
         json_t *item = json_object();
         json_object_set_new(item, "range", server_range(coloring->request->server, session, place->value));
         json_object_set_new(item, "color", channels(coloring, schema_field_const(row, element)));

@@ -113,19 +113,12 @@ static span bare(const struct session *session, span at) {
     return at;
 }
 
-static bool is_of_xml(const struct session *session, uint32_t source) {
-    for (uint32_t i = 0; i < session->origin.files.count; i++)
-        if (session->origin.files.items[i].source == source)
-            return session->origin.files.items[i].is_xml;
-    return false;
-}
-
 static void add_edit(const struct request *request, json_t *changes, span at, str name, const char *text) {
     const struct session *session = request->session;
     span inner = bare(session, at);
     // A name in quotes may have escapes, and in an attribute entities, but never needs them. A name that is
     // not written at its place comes through an anchor.
-    bool whole = inner.begin != at.begin || is_of_xml(session, at.source);
+    bool whole = inner.begin != at.begin || ir_origin_is_xml(&session->origin, at.source);
     if (!whole && !str_equal(source_text(&session->sources, inner), name))
         return;
     json_t *location = location_of(request, inner);
@@ -223,7 +216,7 @@ static void add_definition(const struct request *request, const struct located *
         add_value(session->scene, name.element, out);
     strbuf_format(out, " of %.*s:%u\n\n", STR_ARG(path_base(where.path)), where.line);
     if (request->server->has_markdown)
-        markdown_code(text, is_of_xml(session, name.definition.source) ? "xml" : "yaml", out);
+        markdown_code(text, ir_origin_is_xml(&session->origin, name.definition.source) ? "xml" : "yaml", out);
     else
         strbuf_format(out, "%.*s\n", STR_ARG(text));
     strbuf_char(out, '\n');

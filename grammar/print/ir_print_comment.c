@@ -71,13 +71,6 @@ const struct ir_file_origin *print_file_of(const struct print_places *places, co
     return places->origin->files.count ? &places->origin->files.items[0] : NULL;
 }
 
-static bool is_from_xml(const struct print_places *places, uint32_t source) {
-    for (uint32_t i = 0; i < places->origin->files.count; i++)
-        if (places->origin->files.items[i].source == source)
-            return places->origin->files.items[i].is_xml;
-    return false;
-}
-
 // Takes text up to what either spelling treats as a line end: text after one would be content of a YAML
 // scene.
 static str next_line(str *rest) {
@@ -186,7 +179,7 @@ static bool neutral(struct print_places *places, span comments, struct strbuf *l
         return false;
     places->last = comments;
     str text = source_text(places->sources, comments);
-    if (is_from_xml(places, comments.source))
+    if (ir_origin_is_xml(places->origin, comments.source))
         neutral_from_xml(text, lines);
     else
         neutral_from_yaml(text, lines);

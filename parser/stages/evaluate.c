@@ -39,33 +39,18 @@ static bool is_plain_mistake(struct evaluation *e, const struct ir_formula *f,
            !diag_expression_is_near(sink(e), &expression, f->text);
 }
 
-static bool is_xml(const struct loader *loader, uint32_t source) {
-    const struct ir_origin *origin = &loader->output->origin;
-    for (uint32_t i = 0; i < origin->files.count; i++)
-        if (origin->files.items[i].source == source)
-            return origin->files.items[i].is_xml;
-    return false;
-}
-
 static void tell_plain_mistake(struct evaluation *e, const struct bind_frame *frame,
                                const struct ir_formula *f) {
     struct loader *loader = e->loader;
     struct tree tree;
-    tree_init(&tree, &loader->scratch, f->at.source, is_xml(loader, f->at.source));
+    tree_init(&tree, &loader->scratch, f->at.source, ir_origin_is_xml(&loader->output->origin, f->at.source));
     tree.root = tree_add(&tree, (struct tree_node){.kind = TREE_SCALAR,
                                                    .begin = f->at.begin,
                                                    .end = f->at.end,
                                                    .value = tree_add_text(&tree, f->text),
                                                    .count = (uint32_t)f->text.len});
-    struct bind_context context = {.sink = sink(e),
-                                   .sources = loader->input->sources,
-                                   .origin = &loader->output->origin,
-                                   .arena = loader->input->arena,
-                                   .scratch = &loader->scratch,
-                                   .index = &loader->index,
-                                   .texts = &loader->texts,
-                                   .tree = &tree,
-                                   .plain = true};
+    struct bind_context context = loader_binding(loader, sink(e), &tree);
+    context.plain = true;
     struct ir_color whole;
     double component;
     if (f->component == IR_FORMULA_WHOLE)

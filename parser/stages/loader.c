@@ -5,7 +5,7 @@
 #include "parser/bind/bind.h"
 #include "parser/tree/reader.h"
 
-static struct bind_context binding(struct loader *loader, struct diag_sink *sink, const struct tree *tree) {
+struct bind_context loader_binding(struct loader *loader, struct diag_sink *sink, const struct tree *tree) {
     return (struct bind_context){.sink = sink,
                                  .sources = loader->input->sources,
                                  .origin = &loader->output->origin,
@@ -33,7 +33,7 @@ static struct ir_scene *stream_file(struct loader *loader, read_file *read, uint
     struct bind_stream *stream = &loader->stream;
     diag_sink_init(sink);
     diag_sink_keep(sink, loader->input->sink->kept_max);
-    struct bind_context context = binding(loader, sink, tree);
+    struct bind_context context = loader_binding(loader, sink, tree);
     bind_stream_begin(stream, &context, limits_size(loader->input->limits, LIMIT_SCENE_MEMORY));
     struct reader_context reader = reading(loader, sink);
     reader.taker = &stream->taker;
@@ -69,7 +69,7 @@ static struct ir_scene *load_source(struct loader *loader, uint32_t source, stru
     bool readable = scene != NULL;
     if (!scene) {
         struct reader_context reader = reading(loader, input->sink);
-        struct bind_context context = binding(loader, input->sink, &tree);
+        struct bind_context context = loader_binding(loader, input->sink, &tree);
         readable = read(&reader, source, &tree);
         scene = readable ? bind_file(&context) : NULL;
     }

@@ -42,6 +42,8 @@ struct loader {
 };
 
 // loader.c
+// To bind a tree with what the loader has.
+struct bind_context loader_binding(struct loader *loader, struct diag_sink *sink, const struct tree *tree);
 // Reads and binds a source; returns its index in loader->files. The main scene has itself as its parent.
 uint32_t loader_add_file(struct loader *loader, uint32_t source, uint32_t parent, span include);
 

@@ -268,15 +268,8 @@ static void apply(struct loader *loader, struct ir_scene *scene, str option) {
     *o = (struct override){.loader = loader, .scene = scene, .text = option};
     o->source = source_add(input->sources, SOURCE_KIND_OPTION, STR("--set"), option);
     nothing.source = o->source;
-    o->context = (struct bind_context){.sink = input->sink,
-                                       .sources = input->sources,
-                                       .origin = &loader->output->origin,
-                                       .arena = input->arena,
-                                       .scratch = &loader->scratch,
-                                       .scene = scene,
-                                       .index = &loader->index,
-                                       .texts = &loader->texts,
-                                       .tree = &nothing};
+    o->context = loader_binding(loader, input->sink, &nothing);
+    o->context.scene = scene;
     struct override_target target;
     if (!override_parse(o) || !override_walk(o, &target))
         return;

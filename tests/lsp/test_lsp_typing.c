@@ -221,6 +221,11 @@ static void shows_colours_and_takes_them(void **state) {
     assert_true(channel(list, 0, "red") > 0.4999 && channel(list, 0, "red") < 0.5001);
     expect_picked(client, "main.yaml", json_array_get(list, 0), "[1, 0.214, 0]", "\"#ff8000\"");
     json_decref(list);
+    change(client, "main.yaml", 3,
+           "glint: 1\nparameters: {dusk: \"#403050\"}\nbackground: {color: dusk}\nlights: [{position: [0, 9, "
+           "0], color: "
+           "0.5}]\n");
+    json_decref(colors_of(client, "main.yaml", 1)); // none of the expression
     client_open(client, "other.xml",
                 "<Scene glint=\"1\"><Background><Color r=\"1\" g=\"0\" b=\"0\"/></Background><Light "
                 "color=\"#00ff00\"><Position x=\"1\" y=\"1\" z=\"1\"/></Light></Scene>");
