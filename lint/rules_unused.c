@@ -71,9 +71,12 @@ static bool adds_anything(const struct lint *lint, const struct ir_file_origin *
     const struct ir_scene *own = file->scene;
     if (!own)
         return true;
-    if (ir_body_count(own) || own->cameras.count || own->lights.count || own->includes.count ||
-        own->image.head.written || own->trace.head.written || own->background.head.written)
-        return true;
+    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
+        const struct schema_element *kind = SCHEMA_SCENE.rows[i].child;
+        if (kind && kind != &SCHEMA_MATERIAL && kind != &SCHEMA_MESH &&
+            ir_walk_written(&SCHEMA_SCENE, i, own))
+            return true;
+    }
     return holds_used(lint, file, &SCHEMA_MATERIAL, used->materials) ||
            holds_used(lint, file, &SCHEMA_MESH, used->meshes);
 }

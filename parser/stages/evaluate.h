@@ -70,7 +70,7 @@ void evaluation_stop(struct evaluation *evaluation);
 // Leaves the parameters' values of that frame in the scene.
 void evaluation_keep(const struct evaluation *evaluation);
 // Warns of parameters that nothing uses.
-void evaluation_tell_unused(const struct evaluation *evaluation);
+void evaluation_tell_unused(struct evaluation *evaluation);
 
 // Reads a text as an expression. false: reported with the code.
 bool evaluation_compile(struct evaluation *evaluation, diag_code code, str text, span at,

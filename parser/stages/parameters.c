@@ -365,25 +365,26 @@ void evaluation_keep(const struct evaluation *e) {
 
 static void mark_used(struct evaluation *e) {
     // From the last to the first: what a used one is computed from is used.
-    const struct expression_scope scope = e->scope;
     for (uint32_t i = e->ordered; i > 0; i--) {
-        struct parameter *p = &e->items[e->order[i - 1]];
-        for (uint32_t k = 0; p->is_used && k < p->part_count; k++) {
-            struct expression ignored;
-            struct expression_fault fault;
-            expression_compile(p->texts[k], &scope, &e->loader->scratch, &ignored, &fault);
+        const struct parameter *p = &e->items[e->order[i - 1]];
+        size_t at = 0;
+        str name;
+        while (p->is_used && expression_next_name(p->ir->value, &at, &name)) {
+            const uint32_t number = str_map_find(&e->by_name, name);
+            if (number)
+                e->items[number - 1].is_used = true;
         }
     }
 }
 
-void evaluation_tell_unused(const struct evaluation *evaluation) {
-    struct evaluation *e = (struct evaluation *)evaluation;
+void evaluation_tell_unused(struct evaluation *e) {
     if (sink(e)->errors) // what uses it may be where the mistake is
         return;
     mark_used(e);
     for (uint32_t i = 0; i < e->count; i++) {
         const struct parameter *p = &e->items[i];
-        if (p->is_used || p->state == PARAMETER_BAD || p->ir->head.poisoned)
+        const bool is_second = str_map_find(&e->by_name, p->ir->name) != i + 1; // names.c reports it
+        if (p->is_used || is_second || p->state == PARAMETER_BAD || p->ir->head.poisoned)
             continue;
         diag_add(sink(e), DIAG_PARAMETER_UNUSED, ir_place_label(origin(e), &p->ir->head),
                  "nothing uses the parameter '%.*s'", STR_ARG(p->ir->name));

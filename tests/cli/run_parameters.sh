@@ -52,6 +52,12 @@ sed 's,^parameters:,include: [parts/part.yaml]\n&,; s/radius: pitch.3}$/radius: 
 expect "with its includes" 0 'DiffuseColor r="0.5" g="0"' '' "$glint" convert whole.yaml - --expanded
 expect "the parts' parameters too" 0 '^  tone  *0.25$' - "$glint" inspect whole.yaml
 
+# A file of parameters, or of light from all sides, is a library that is used (W409 is of one that adds nothing).
+printf 'glint: 1\nparameters: {tall: 0.5}\n' >library.yaml
+printf 'glint: 1\nambient: {color: 0.2}\n' >ambient.yaml
+sed 's,^parameters:,include: [library.yaml, ambient.yaml]\n&,; s,pitch/3}$,tall},' row.yaml >user.yaml
+expect "used by its parameters" 0 - '' "$glint" check user.yaml
+
 # What moves.
 { cat row.yaml; printf 'animation:\n  frames: 10\n  tracks: {parameters.pitch: 1 + frame/4}\n'; } >moving.yaml
 expect "a track moves a parameter" 0 '^  length  *4$' - "$glint" inspect moving.yaml --frame 4
