@@ -363,17 +363,22 @@ void evaluation_keep(const struct evaluation *e) {
     }
 }
 
+static void mark_named(struct evaluation *e, str text) {
+    size_t at = 0;
+    str name;
+    while (expression_next_name(text, &at, &name)) {
+        const uint32_t number = str_map_find(&e->by_name, name);
+        if (number)
+            e->items[number - 1].is_used = true;
+    }
+}
+
+// From the last to the first: what a used one is computed from is used.
 static void mark_used(struct evaluation *e) {
-    // From the last to the first: what a used one is computed from is used.
     for (uint32_t i = e->ordered; i > 0; i--) {
         const struct parameter *p = &e->items[e->order[i - 1]];
-        size_t at = 0;
-        str name;
-        while (p->is_used && expression_next_name(p->ir->value, &at, &name)) {
-            const uint32_t number = str_map_find(&e->by_name, name);
-            if (number)
-                e->items[number - 1].is_used = true;
-        }
+        for (uint32_t k = 0; p->is_used && k < p->part_count; k++)
+            mark_named(e, p->texts[k]); // the scene's own text may be that of a frame by now
     }
 }
 

@@ -55,7 +55,7 @@ expect "the parts' parameters too" 0 '^  tone  *0.25$' - "$glint" inspect whole.
 # A file of parameters, or of light from all sides, is a library that is used (W409 is of one that adds nothing).
 printf 'glint: 1\nparameters: {tall: 0.5}\n' >library.yaml
 printf 'glint: 1\nambient: {color: 0.2}\n' >ambient.yaml
-sed 's,^parameters:,include: [library.yaml, ambient.yaml]\n&,; s,pitch/3}$,tall},' row.yaml >user.yaml
+sed 's|^parameters:|include: [library.yaml, ambient.yaml]\n&|; s|pitch/3}$|tall}|' row.yaml >user.yaml
 expect "used by its parameters" 0 - '' "$glint" check user.yaml
 
 # What moves.
