@@ -44,25 +44,13 @@ static json_t *number_schema(const struct schema_row *row) {
                      json_double(range->least), "maximum", json_double(range->greatest));
 }
 
-// In small letters, capitals, and with one.
-static void add_spellings(json_t *list, const char *word) {
-    char small[16], one[16], all[16];
-    size_t i = 0;
-    for (; word[i] && i + 1 < sizeof small; i++) {
-        small[i] = word[i];
-        all[i] = (char)(word[i] - 'a' + 'A');
-        one[i] = i ? small[i] : all[i];
-    }
-    small[i] = one[i] = all[i] = '\0';
-    json_array_append_new(list, json_string(small));
-    json_array_append_new(list, json_string(one));
-    json_array_append_new(list, json_string(all));
+static void add_word(void *list, const char *word) {
+    json_array_append_new(list, json_string(word));
 }
 
 static json_t *expression_schema(void) {
     json_t *words = json_array();
-    for (const char *const *word = expression_no_words(); *word; word++)
-        add_spellings(words, *word);
+    emit_no_words(add_word, words);
     return json_pack("{s:s, s:s, s:s, s:{s:o}}", "description", "An expression, as in columns*pitch - 1.",
                      "type", "string", "pattern", "^(" EMIT_EXPRESSION_PATTERN ")$", "not", "enum", words);
 }

@@ -1,5 +1,7 @@
 #include "grammar/emit/emit_lines.h"
 
+#include "core/expression.h"
+
 #include <stdarg.h>
 
 enum {
@@ -34,6 +36,21 @@ void emit_open(struct emit_lines *w, const char *format, ...) {
 void emit_close(struct emit_lines *w, const char *tag) {
     w->depth--;
     emit_line(w, "</%s>", tag);
+}
+
+void emit_no_words(void (*put)(void *to, const char *word), void *to) {
+    for (const char *const *word = expression_no_words(); *word; word++) {
+        char one[16], all[16];
+        size_t i = 0;
+        for (; (*word)[i] && i + 1 < sizeof one; i++) {
+            all[i] = (char)((*word)[i] - 'a' + 'A');
+            one[i] = i ? (*word)[i] : all[i];
+        }
+        one[i] = all[i] = '\0';
+        put(to, *word);
+        put(to, one);
+        put(to, all);
+    }
 }
 
 bool emit_is_integer(enum schema_range range) {

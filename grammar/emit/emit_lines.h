@@ -29,6 +29,10 @@ void emit_line(const struct emit_lines *w, const char *format, ...) __attribute_
 void emit_open(struct emit_lines *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void emit_close(struct emit_lines *w, const char *tag);
 
+// Each word that looks like a name and cannot be an expression (yes, null), in small letters, in capitals,
+// and with one capital, as `put(to, word)`.
+void emit_no_words(void (*put)(void *to, const char *word), void *to);
+
 // Whether the rows of this range are whole numbers.
 bool emit_is_integer(enum schema_range range);
 

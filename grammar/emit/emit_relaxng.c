@@ -44,6 +44,10 @@ static void number_definitions(struct emit_lines *w) {
     }
 }
 
+static void except_word(void *w, const char *word) {
+    emit_line(w, "<value type=\"string\">%s</value>", word);
+}
+
 static void text_definitions(struct emit_lines *w) {
     emit_open(w, "<define name=\"boolean\">");
     emit_line(w, "<choice><value type=\"string\">true</value><value type=\"string\">false</value></choice>");
@@ -52,7 +56,14 @@ static void text_definitions(struct emit_lines *w) {
     emit_line(w, "<data type=\"string\"><param name=\"pattern\">" EMIT_HEX_PATTERN "</param></data>");
     emit_close(w, "define");
     emit_open(w, "<define name=\"expression\">");
-    emit_line(w, "<data type=\"string\"><param name=\"pattern\">%s</param></data>", EMIT_EXPRESSION_PATTERN);
+    emit_open(w, "<data type=\"string\">");
+    emit_line(w, "<param name=\"pattern\">%s</param>", EMIT_EXPRESSION_PATTERN);
+    emit_open(w, "<except>");
+    emit_open(w, "<choice>");
+    emit_no_words(except_word, w);
+    emit_close(w, "choice");
+    emit_close(w, "except");
+    emit_close(w, "data");
     emit_close(w, "define");
     emit_open(w, "<define name=\"name\">");
     emit_line(w, "<data type=\"string\"><param name=\"pattern\">" EMIT_NAME_PATTERN "</param></data>");

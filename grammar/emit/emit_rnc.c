@@ -50,10 +50,16 @@ static void number_definitions(struct emit_lines *w) {
     }
 }
 
+static void add_word(void *out, const char *word) {
+    strbuf_format(out, " | xsd:string \"%s\"", word);
+}
+
 static void text_definitions(struct emit_lines *w) {
     emit_line(w, "boolean = xsd:string \"true\" | xsd:string \"false\"");
     emit_line(w, "hex_color = xsd:string { pattern = \"" EMIT_HEX_PATTERN "\" }");
-    emit_line(w, "expression = xsd:string { pattern = \"%s\" }", EMIT_EXPRESSION_PATTERN);
+    strbuf_cstr(w->out, "no_expression = xsd:string \"\"");
+    emit_no_words(add_word, w->out);
+    emit_line(w, "\nexpression = xsd:string { pattern = \"%s\" } - no_expression", EMIT_EXPRESSION_PATTERN);
     emit_line(w, "name = xsd:string { pattern = \"" EMIT_NAME_PATTERN "\" }");
     emit_line(w, "some_text = xsd:string { minLength = \"1\" }");
 }

@@ -22,6 +22,7 @@ while jing glint.rng cases/*.xml >report 2>&1 || true && grep ': fatal: ' report
     echo "/$name.xml:" >>no_xml
     rm "cases/$name.xml"
 done
+: >disagree
 for syntax in "-c glint.rnc" "glint.rng"; do
     # shellcheck disable=SC2086
     jing $syntax cases/*.xml >report 2>&1 || true
@@ -30,7 +31,8 @@ for syntax in "-c glint.rnc" "glint.rng"; do
     while read -r name verdict; do
         got=good
         grep -q "/$name.xml:" refused && got=bad
-        [ $got = "$verdict" ] || fail "$name is $verdict, and jing $syntax takes it for $got"
+        [ $got = "$verdict" ] || echo "$name is $verdict, and jing $syntax takes it for $got" >>disagree
     done <verdicts
 done
+[ ! -s disagree ] || fail "$(cat disagree)"
 wc -l <verdicts
