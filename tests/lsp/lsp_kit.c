@@ -198,10 +198,12 @@ json_t *client_diagnostics(struct lsp_client *client, const char *name, int vers
 
 const char *client_uri(struct lsp_client *client, const char *name) {
     static char uri[900];
-    int length = snprintf(uri, sizeof uri, "file://%s/", client->folder);
-    for (; *name && length < (int)sizeof uri - 4; name++) {
-        bool plain = (*name & 0x80) == 0 && !strchr(" %#?", *name);
-        length += snprintf(uri + length, 4, plain ? "%c" : "%%%02X", (unsigned char)*name);
+    char path[900];
+    int length = snprintf(uri, sizeof uri, "file://");
+    snprintf(path, sizeof path, "%s/%s", client->folder, name);
+    for (const char *at = path; *at && length < (int)sizeof uri - 4; at++) {
+        const bool plain = (*at & 0x80) == 0 && !strchr(" %#?", *at);
+        length += snprintf(uri + length, 4, plain ? "%c" : "%%%02X", (unsigned char)*at);
     }
     return uri;
 }
