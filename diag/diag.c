@@ -85,7 +85,64 @@ bool diag_is_full(const struct diag_sink *sink) {
     return sink->count >= sink->kept_max;
 }
 
+static int compare_spans(const void *a, const void *b) {
+    const span *x = a, *y = b;
+    if (x->source != y->source)
+        return x->source < y->source ? -1 : 1;
+    return x->begin < y->begin ? -1 : x->begin > y->begin;
+}
+
+void diag_repeats(struct diag_sink *sink, span at) {
+    if (sink->repeated.count == sink->repeated.capacity) {
+        const uint32_t capacity = sink->repeated.capacity ? sink->repeated.capacity * 2 : 16;
+        span *items = arena_try_alloc_array(&sink->arena, capacity, sizeof *items);
+        if (!items)
+            return;
+        if (sink->repeated.count)
+            memcpy(items, sink->repeated.items, sink->repeated.count * sizeof *items);
+        sink->repeated.items = items;
+        sink->repeated.capacity = capacity;
+    }
+    uint32_t place = sink->repeated.count++;
+    for (; place > 0 && compare_spans(&sink->repeated.items[place - 1], &at) > 0; place--)
+        sink->repeated.items[place] = sink->repeated.items[place - 1];
+    sink->repeated.items[place] = at;
+}
+
+// The one like it, if there are several of what it is about.
+static struct diag *find_repeat(struct diag_sink *sink, diag_code code, span at) {
+    uint32_t low = 0, high = sink->repeated.count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (compare_spans(&sink->repeated.items[middle], &at) <= 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    const span *around = low ? &sink->repeated.items[low - 1] : NULL;
+    if (!around || around->source != at.source || at.end > around->end)
+        return NULL;
+    for (uint32_t i = sink->count; i-- > 0;) {
+        struct diag *item = &sink->items[i];
+        if (item->code == code && item->at.source == at.source && item->at.begin == at.begin &&
+            item->at.end == at.end)
+            return item;
+    }
+    return NULL;
+}
+
+bool diag_is_repeat(struct diag_sink *sink, diag_code code, span at) {
+    struct diag *item = sink->repeated.count ? find_repeat(sink, code, at) : NULL;
+    if (item)
+        item->repeats++;
+    return item != NULL;
+}
+
 struct diag *diag_add(struct diag_sink *sink, diag_code code, span at, const char *format, ...) {
+    if (diag_is_repeat(sink, code, at)) {
+        sink->last_kept = false;
+        return &sink->spare;
+    }
     count(sink, diag_info(code)->severity);
     str message = STR("");
     va_list args;
@@ -245,8 +302,18 @@ static void drop_repeats(struct diag_sink *sink, uint32_t *slots, size_t slot_co
     sink->count = kept;
 }
 
+static void note_repeats(struct diag_sink *sink) {
+    for (uint32_t i = 0; i < sink->count; i++) {
+        struct diag *item = &sink->items[i];
+        if (item->repeats)
+            diag_note_to(sink, item, SPAN_NONE, "so it is with %u more of its copies", item->repeats);
+        item->repeats = 0;
+    }
+}
+
 void diag_sort(struct diag_sink *sink) {
     sink->last_kept = false;
+    note_repeats(sink);
     if (sink->count < 2)
         return;
     size_t slot_count = 4;

@@ -59,6 +59,7 @@ struct diag {
     str message;
     struct diag_related *notes; // in the order they were added
     str help;                   // empty: none
+    uint32_t repeats;           // further ones like it, in copies of what it is about
     bool has_fix;
     bool fix_is_safe; // the only possible meaning; else a suggestion
     span fix_at;
@@ -78,6 +79,10 @@ struct diag_sink {
     uint32_t notes;
     uint32_t dropped; // did not fit into the sink; counted above too
     uint32_t dropped_of[DIAG_CODE_COUNT];
+    struct {
+        span *items;
+        uint32_t count, capacity;
+    } repeated; // of which there are copies: diag_repeats
     uint64_t search_left; // what searching for suggestions may still cost (core/nearest.h)
     struct diag spare;    // stands for a diagnostic that was dropped
     bool last_kept;       // whether notes, help and fix have a diagnostic to belong to
@@ -97,6 +102,11 @@ void diag_sink_keep(struct diag_sink *sink, uint32_t most);
 // longer than 2000 bytes are cut.
 struct diag *diag_add(struct diag_sink *sink, diag_code code, span at, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+// There are several of what is at this place in a file: what is said of it by one code at one place is kept once,
+// and the others counted there. After all that are before it.
+void diag_repeats(struct diag_sink *sink, span at);
+// Whether diag_add would count only.
+bool diag_is_repeat(struct diag_sink *sink, diag_code code, span at);
 // Whether diag_add only counts from now on: then callers can skip what takes time to find, such as a
 // suggestion.
 bool diag_is_full(const struct diag_sink *sink);

@@ -55,6 +55,10 @@ enum ir_light_kind {
     IR_LIGHT_DIRECTION,
     IR_LIGHT_RECTANGLE
 };
+enum ir_variable_kind {
+    IR_VARIABLE_COUNT,
+    IR_VARIABLE_VALUES
+};
 enum ir_paint_kind {
     IR_PAINT_COLOR,
     IR_PAINT_CHECKER,
@@ -153,6 +157,19 @@ struct ir_ambient {
     double occlusion; // scene units; 0: bodies do not block it
 };
 
+// A variable of copies: its values are 0, 1, ... before a count, or a list.
+struct ir_variable {
+    struct ir_head head;
+    str name;
+    unsigned kind; // ir_variable_kind
+    int32_t count;
+    str values; // SCHEMA_TEXT_LIST
+};
+struct ir_variables {
+    struct ir_variable *items;
+    uint32_t count, capacity;
+};
+
 // A light that is a rectangle.
 struct ir_panel {
     struct ir_head head;
@@ -162,6 +179,8 @@ struct ir_panel {
 struct ir_light {
     struct ir_head head;
     str name;
+    struct ir_variables copies; // one for each of their values; none: the entry itself
+    bool condition;             // whether there is one
     unsigned kind; // ir_light_kind
     vec3 position, direction;
     struct ir_panel rectangle;
@@ -223,6 +242,8 @@ struct ir_material {
 struct ir_sphere {
     struct ir_head head;
     str name;
+    struct ir_variables copies; // one for each of their values; none: the entry itself
+    bool condition;             // whether there is one
     vec3 center;
     double radius;
     vec3 rotation; // degrees, as a model's
@@ -232,6 +253,8 @@ struct ir_sphere {
 struct ir_rectangle {
     struct ir_head head;
     str name;
+    struct ir_variables copies; // one for each of their values; none: the entry itself
+    bool condition;             // whether there is one
     vec3 corner, edge_u, edge_v;
     struct ir_reference material;
 };
@@ -239,6 +262,8 @@ struct ir_rectangle {
 struct ir_box {
     struct ir_head head;
     str name;
+    struct ir_variables copies; // one for each of their values; none: the entry itself
+    bool condition;             // whether there is one
     vec3 center, size, rotation; // degrees, as a model's
     struct ir_reference material;
 };
@@ -246,6 +271,8 @@ struct ir_box {
 struct ir_cylinder {
     struct ir_head head;
     str name;
+    struct ir_variables copies; // one for each of their values; none: the entry itself
+    bool condition;             // whether there is one
     vec3 from, to; // middles of its ends
     double radius;
     struct ir_reference material;
@@ -254,6 +281,8 @@ struct ir_cylinder {
 struct ir_cone {
     struct ir_head head;
     str name;
+    struct ir_variables copies; // one for each of their values; none: the entry itself
+    bool condition;             // whether there is one
     vec3 from, to; // middles of its ends
     double radius_from, radius_to;
     struct ir_reference material;
@@ -374,6 +403,8 @@ struct ir_meshes {
 struct ir_model {
     struct ir_head head;
     str name;
+    struct ir_variables copies; // one for each of their values; none: the entry itself
+    bool condition;             // whether there is one
     struct ir_reference mesh; // without an index the path of a file
     str part;                 // of a mesh file that has several; empty: all of it
     struct ir_reference material;

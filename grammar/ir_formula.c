@@ -2,6 +2,8 @@
 
 #include "core/heap.h"
 #include "grammar/ir.h"
+#include "grammar/ir_walk.h"
+#include "grammar/schema.h"
 
 #include <string.h>
 
@@ -94,6 +96,18 @@ bool ir_formula_in(const struct ir_formulas *formulas, const struct ir_head *hea
         if (formulas->items[i].row == row)
             return true;
     return false;
+}
+
+void ir_formulas_forget(const struct schema_element *schema, void *element) {
+    ((struct ir_head *)element)->formulas = 0;
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
+        const struct ir_any_list list = ir_walk_list(row, element);
+        for (uint32_t k = 0; k < list.count; k++)
+            ir_formulas_forget(row->child, ir_walk_item(row, list, k));
+        if (row->kind == SCHEMA_ELEMENT)
+            ir_formulas_forget(row->child, schema_field(row, element));
+    }
 }
 
 void ir_formulas_expand(struct ir_scene *scene) {

@@ -13,6 +13,7 @@
 
 struct ir_head;
 struct ir_scene;
+struct schema_element;
 struct schema_row;
 
 enum {
@@ -59,6 +60,8 @@ const struct ir_formula *ir_formula_of(const struct ir_formulas *formulas, const
 bool ir_formula_in(const struct ir_formulas *formulas, const struct ir_head *head,
                    const struct schema_row *row);
 
+// Forgets those of an element and of all in it: what they came to stays.
+void ir_formulas_forget(const struct schema_element *schema, void *element);
 // Forgets parameters and expressions of a scene that was evaluated: what they came to stays.
 void ir_formulas_expand(struct ir_scene *scene);
 

@@ -10,6 +10,7 @@
 #include "core/arena.h"
 #include "diag/source.h"
 
+struct ir_copies;
 struct ir_formulas;
 struct ir_head;
 struct ir_scene;
@@ -43,6 +44,7 @@ struct ir_file_origin {
 struct ir_origin {
     struct arena *arena;
     struct ir_formulas *formulas; // of all files
+    struct ir_copies *copies;     // of the loaded scene; NULL: there are none
     struct {
         struct ir_element_origin *items;
         uint32_t count, capacity;

@@ -8,7 +8,7 @@ bool ir_values_next(str *rest, str *value) {
         return false;
     size_t end = 0;
     for (int depth = 0; end < rest->len && (depth > 0 || rest->ptr[end] != ','); end++)
-        depth += (rest->ptr[end] == '(') - (rest->ptr[end] == ')');
+        depth += (rest->ptr[end] == '(' || rest->ptr[end] == '[') - (rest->ptr[end] == ')' || rest->ptr[end] == ']');
     *value = str_trim(str_slice(*rest, 0, end));
     *rest = end < rest->len ? str_slice(*rest, end + 1, rest->len) : (str){NULL, 0};
     return true;
@@ -29,26 +29,39 @@ static bool is_number(str value, double *number) {
 void ir_values_normal(struct strbuf *out, str text) {
     char digits[NUMBER_FORMAT_MAX];
     double number;
-    str value;
+    str value, inside;
     for (bool first = true; ir_values_next(&text, &value); first = false) {
         strbuf_cstr(out, first ? "" : ", ");
-        if (is_number(value, &number))
+        if (is_number(value, &number)) {
             strbuf_add(out, digits, number_format(number, digits));
-        else
+        } else if (ir_values_open(value, &inside)) {
+            strbuf_char(out, '[');
+            ir_values_normal(out, inside);
+            strbuf_char(out, ']');
+        } else {
             strbuf_str(out, value);
+        }
     }
 }
 
-static void put_list(struct strbuf *out, str text, bool json) {
-    const bool several = ir_values_count(text) > 1;
+bool ir_values_open(str value, str *inside) {
+    if (value.len < 2 || value.ptr[0] != '[' || value.ptr[value.len - 1] != ']')
+        return false;
+    *inside = str_slice(value, 1, value.len - 1);
+    return true;
+}
+
+static void put_list(struct strbuf *out, str text, bool several, bool json) {
     double number;
-    str value;
+    str value, inside;
     if (several)
         strbuf_char(out, '[');
     for (bool first = true; ir_values_next(&text, &value); first = false) {
         strbuf_cstr(out, first ? "" : ", ");
         if (is_number(value, &number))
             strbuf_str(out, value);
+        else if (ir_values_open(value, &inside))
+            put_list(out, inside, true, json);
         else if (json)
             print_json_text(out, value);
         else
@@ -58,10 +71,10 @@ static void put_list(struct strbuf *out, str text, bool json) {
         strbuf_char(out, ']');
 }
 
-void ir_values_yaml(struct strbuf *out, str text) {
-    put_list(out, text, false);
+void ir_values_yaml(struct strbuf *out, str text, bool is_list) {
+    put_list(out, text, is_list || ir_values_count(text) > 1, false);
 }
 
-void ir_values_json(struct strbuf *out, str text) {
-    put_list(out, text, true);
+void ir_values_json(struct strbuf *out, str text, bool is_list) {
+    put_list(out, text, is_list || ir_values_count(text) > 1, true);
 }

@@ -148,7 +148,7 @@ static const struct schema_row camera_rows[] = {
      .also = "focus_point",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .choice = 2, .alternative = IR_FOCUS_POINT,
      .doc = "A point that is sharp, and all that is as far away along the view."},
-    {.name = "focus_on", FIELD(ir_camera, focus_on), .example = "ball", .text = SCHEMA_TEXT_BODY_NAME,
+    {.name = "focus_on", FIELD(ir_camera, focus_on), .example = "ball", .text = SCHEMA_TEXT_BODY_NAME, .counted = true,
      .also = "focus_object focus_body", .choice = 2, .alternative = IR_FOCUS_BODY,
      .doc = "Name of a body whose middle is sharp, and all that is as far away along the view; of a model the middle of its box."},
 };
@@ -209,10 +209,32 @@ static const struct schema_row panel_rows[] = {
 const struct schema_element SCHEMA_PANEL = {
     ELEMENT("panel", "Panel", ir_panel, panel_rows, "The rectangle of a light, which shines on one side.")};
 
+#define BODY_NAME(type, sample)                                                                                      \
+    {                                                                                                        \
+        .name = "name", FIELD(type, name), .example = sample, .text = SCHEMA_TEXT_NAME, .also = "id",        \
+        .counted = true,                                                                                     \
+        .doc = "Name for messages and --set."                                                                \
+    }
+#define COPIES(type)                                                                                         \
+    {.name = "for",                                                                                          \
+     .element = "For",                                                                                       \
+     FIELD(type, copies),                                                                                    \
+     .example_alone = true,                                                                                  \
+     .many = SCHEMA_NAMED_MAP,                                                                               \
+     .child = &SCHEMA_VARIABLE,                                                                              \
+     .also = "repeat copies array loop foreach for_each times instances",                                    \
+     .doc = "Makes copies: one for each value of a variable, which expressions of this entry can use."},     \
+        {.name = "if",                                                                                       \
+         FIELD(type, condition),                                                                             \
+         .example = "i != 3",                                                                                \
+         .example_alone = true,                                                                              \
+         .standard = "true",                                                                                 \
+         .also = "when where unless enabled condition",                                                      \
+         .doc = "Where it is false there is no such copy, or without 'for' no such entry."}
+
 static const struct schema_row light_rows[] = {
-    {.name = "name", FIELD(ir_light, name), .example = "sun",
-     .also = "id", .text = SCHEMA_TEXT_NAME,
-     .doc = "Name for messages and --set."},
+    BODY_NAME(ir_light, "sun"),
+    COPIES(ir_light),
     {.name = "position", .element = "Position", FIELD(ir_light, position), .example = "-20 20 20",
      .also = "location origin center translation",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .choice = 1,
@@ -366,11 +388,6 @@ const struct schema_element SCHEMA_MATERIAL = {
     ELEMENT("material", "Material", ir_material, material_rows,
             "How a surface responds to light: the weights and colours of tinyraytracer's materials.")};
 
-#define BODY_NAME(type, sample)                                                                                      \
-    {                                                                                                        \
-        .name = "name", FIELD(type, name), .example = sample, .text = SCHEMA_TEXT_NAME, .also = "id",        \
-        .doc = "Name for messages and --set."                                                                \
-    }
 #define BODY_MATERIAL(type)                                                                                  \
     {                                                                                                        \
         .name = "material", .element = "Material", FIELD(type, material), .example = "glass",                \
@@ -381,6 +398,7 @@ const struct schema_element SCHEMA_MATERIAL = {
 
 static const struct schema_row sphere_rows[] = {
     BODY_NAME(ir_sphere, "ball"),
+    COPIES(ir_sphere),
     {.name = "center", .element = "Center", FIELD(ir_sphere, center), .example = "0 1 0",
      .also = "pos position location origin translation middle",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
@@ -399,6 +417,7 @@ const struct schema_element SCHEMA_SPHERE = {
 
 static const struct schema_row rectangle_rows[] = {
     BODY_NAME(ir_rectangle, "floor"),
+    COPIES(ir_rectangle),
     {.name = "corner", .element = "Corner", FIELD(ir_rectangle, corner), .example = "-5 0 5",
      .also = "pos position origin location center",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
@@ -418,6 +437,7 @@ const struct schema_element SCHEMA_RECTANGLE = {ELEMENT(
 
 static const struct schema_row box_rows[] = {
     BODY_NAME(ir_box, "crate"),
+    COPIES(ir_box),
     {.name = "center", .element = "Center", FIELD(ir_box, center), .example = "0 0.6 0",
      .also = "pos position location origin translation middle",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
@@ -437,6 +457,7 @@ const struct schema_element SCHEMA_BOX = {
 
 static const struct schema_row cylinder_rows[] = {
     BODY_NAME(ir_cylinder, "column"),
+    COPIES(ir_cylinder),
     {.name = "from", .element = "From", FIELD(ir_cylinder, from), .example = "0 0 0",
      .also = "base begin bottom start base_point center position",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
@@ -455,6 +476,7 @@ const struct schema_element SCHEMA_CYLINDER = {ELEMENT("cylinder", "Cylinder", i
 
 static const struct schema_row cone_rows[] = {
     BODY_NAME(ir_cone, "roof"),
+    COPIES(ir_cone),
     {.name = "from", .element = "From", FIELD(ir_cone, from), .example = "0 0 0",
      .also = "base begin bottom start base_point center position",
      .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .required = true,
@@ -488,6 +510,7 @@ const struct schema_element SCHEMA_MAP_ENTRY = {
 
 static const struct schema_row model_rows[] = {
     BODY_NAME(ir_model, "dragon"),
+    COPIES(ir_model),
     {.name = "mesh", .element = "Mesh", FIELD(ir_model, mesh), .example = "dragon.obj", .child = &SCHEMA_MESH,
      .also = "file path filename src geometry obj ply stl shape",
      .file = SCHEMA_FILE_MESH, .required = true,

@@ -44,6 +44,8 @@ enum schema_text {
     SCHEMA_TEXT_TARGET, // the path to a number of the scene, as in --set: any text but the empty one
     SCHEMA_TEXT_VALUES, // one to four numbers, expressions (core/expression.h) or #rrggbb, with ", "
                         // between them; YAML: one of them, or a list
+    SCHEMA_TEXT_LIST,   // a list of any length of the same, with three of them in brackets for a vector;
+                        // YAML: a list
 };
 
 // Which kind of file a SCHEMA_TEXT_PATH names.
@@ -89,6 +91,7 @@ enum schema_range {
     SCHEMA_RANGE_FRAMES,     // 1..RANGE_FRAMES_MOST
     SCHEMA_RANGE_FRAME,      // 0..RANGE_FRAMES_MOST
     SCHEMA_RANGE_RATE,       // 0.001..1000
+    SCHEMA_RANGE_COPIES,     // 0..RANGE_COPIES_MOST
     SCHEMA_RANGE_COUNT,
 };
 
@@ -136,8 +139,9 @@ struct schema_row {
     const char *const *word_docs;
     bool required;
     bool fill;       // SCHEMA_VECTOR, SCHEMA_PAIR: a single number fills all components
-    bool short_form; // the element's bare scalar or sequence is this row
+    bool short_form; // the element's bare scalar or sequence is this row; of two, the second has the sequence
     bool key;        // in a named map, the map's key; written as an attribute in XML
+    bool counted;    // the name of a body, which may end in the places of a copy: pawn[3][0]
     bool plain;      // its numbers are written, never computed
     bool aside;      // says nothing about the picture: no part of a scene's hash
     enum schema_many many;
@@ -169,7 +173,7 @@ struct schema_element {
     struct schema_choice choices[3]; // by schema_row.choice - 1
 };
 
-extern const struct schema_element SCHEMA_SCENE, SCHEMA_INCLUDE, SCHEMA_PARAMETER, SCHEMA_IMAGE, SCHEMA_TRACE,
+extern const struct schema_element SCHEMA_SCENE, SCHEMA_INCLUDE, SCHEMA_PARAMETER, SCHEMA_VARIABLE, SCHEMA_IMAGE, SCHEMA_TRACE,
     SCHEMA_CAMERA, SCHEMA_BACKGROUND, SCHEMA_AMBIENT, SCHEMA_LIGHT, SCHEMA_PANEL, SCHEMA_MATERIAL,
     SCHEMA_PAINT, SCHEMA_CHECKER, SCHEMA_TEXTURE, SCHEMA_HIGHLIGHT, SCHEMA_MESH, SCHEMA_LATHE,
     SCHEMA_OUTLINE_POINT, SCHEMA_TORUS, SCHEMA_EXTRUDE, SCHEMA_HOLE, SCHEMA_FACES, SCHEMA_VERTEX, SCHEMA_UV,
@@ -193,8 +197,9 @@ int schema_find_yaml(const struct schema_element *element, str key, bool *is_sin
 int schema_find_child(const struct schema_element *element, str name);
 // Index of the row that other programs call `name` (snake_case), or -1.
 int schema_find_also(const struct schema_element *element, str name);
-// Index of the short row, or of the key row, or -1.
+// Index of the short row, of that for a sequence, or of the key row, or -1.
 int schema_short_row(const struct schema_element *element);
+int schema_list_row(const struct schema_element *element);
 int schema_key_row(const struct schema_element *element);
 // Whether XML can write the row as an attribute: scalars always, vectors and colours if one number or #rrggbb
 // is enough, references by name.
@@ -203,6 +208,10 @@ bool schema_is_attribute(const struct schema_row *row);
 const char *schema_yaml_key(const struct schema_row *row);
 // Names of a kind's components: {"x","y","z"}, {"r","g","b"}, {"diffuse",...}; NULL at the end.
 const char *const *schema_components(enum schema_kind kind);
+// Whether its text is of values: SCHEMA_TEXT_VALUES, SCHEMA_TEXT_LIST.
+static inline bool schema_has_values(const struct schema_row *row) {
+    return row->kind == SCHEMA_TEXT && (row->text == SCHEMA_TEXT_VALUES || row->text == SCHEMA_TEXT_LIST);
+}
 // Whether an expression may stand there.
 bool schema_may_compute(const struct schema_row *row);
 uint32_t schema_component_count(enum schema_kind kind); // 0: it has none

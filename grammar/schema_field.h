@@ -41,6 +41,7 @@
         struct ir_parameters: SCHEMA_LIST,                                                                   \
         struct ir_cameras: SCHEMA_LIST,                                                                      \
         struct ir_lights: SCHEMA_LIST,                                                                       \
+        struct ir_variables: SCHEMA_LIST,                                                                    \
         struct ir_materials: SCHEMA_LIST,                                                                    \
         struct ir_meshes: SCHEMA_LIST,                                                                       \
         struct ir_outline: SCHEMA_LIST,                                                                      \

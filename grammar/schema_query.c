@@ -46,6 +46,8 @@ static const struct schema_range_info ranges[SCHEMA_RANGE_COUNT] = {
                             "from 0 to " RANGE_TEXT(RANGE_FRAMES_MOST)},
     [SCHEMA_RANGE_RATE] = {"rate", RANGE_RATE_LEAST, RANGE_RATE_MOST, false, false,
                            "from " RANGE_TEXT(RANGE_RATE_LEAST) " to " RANGE_TEXT(RANGE_RATE_MOST)},
+    [SCHEMA_RANGE_COPIES] = {"copies", 0, RANGE_COPIES_MOST, false, false,
+                             "from 0 to " RANGE_TEXT(RANGE_COPIES_MOST)},
 };
 
 // clang-format off
@@ -53,6 +55,7 @@ const struct schema_element *const schema_elements[] = {
     &SCHEMA_SCENE,
     &SCHEMA_INCLUDE,
     &SCHEMA_PARAMETER,
+    &SCHEMA_VARIABLE,
     &SCHEMA_IMAGE,
     &SCHEMA_TRACE,
     &SCHEMA_CAMERA,
@@ -165,6 +168,13 @@ int schema_find_also(const struct schema_element *element, str name) {
 
 int schema_short_row(const struct schema_element *element) {
     for (uint32_t i = 0; i < element->row_count; i++)
+        if (element->rows[i].short_form)
+            return (int)i;
+    return -1;
+}
+
+int schema_list_row(const struct schema_element *element) {
+    for (uint32_t i = element->row_count; i-- > 0;)
         if (element->rows[i].short_form)
             return (int)i;
     return -1;

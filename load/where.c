@@ -2,6 +2,7 @@
 #include "diag/codes/limit.h"
 
 #include "grammar/ir.h"
+#include "grammar/ir_copies.h"
 #include "grammar/ir_features.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
@@ -27,6 +28,8 @@ bool where_find(const struct session *session, uint32_t number, uint32_t triangl
     const struct scene_body *body = &session->resolved.bodies[number];
     *out = (struct where){.kind = body->element->name,
                           .list = schema_yaml_key(ir_walk_pool(body->element)),
+                          .row = ir_walk_pool(body->element),
+                          .copies = session->origin.copies,
                           .index = body->index,
                           .name = body->name,
                           .at = ir_place_label(&session->origin, body->head),
@@ -49,7 +52,7 @@ void where_body_words(const struct where *where, struct strbuf *out) {
     else if (where->name.len)
         strbuf_format(out, "%s '%.*s'", where->kind, STR_ARG(where->name));
     else
-        strbuf_format(out, "%s[%u]", where->list, where->index);
+        ir_copies_label(where->copies, where->row, where->index, out);
 }
 
 void where_material_words(const struct where *where, struct strbuf *out) {

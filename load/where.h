@@ -13,6 +13,8 @@ struct where {
     const char *kind;          // as the language calls it: "sphere"
     const char *list;          // of the scene, that holds it: "spheres"
     uint32_t index;            // in that list
+    const struct ir_copies *copies; // of the scene; NULL: there are none
+    const struct schema_row *row;   // the list
     str name;                  // empty: it has none
     span at;                   // in the scene
     uint32_t material;         // in assets.materials

@@ -19,7 +19,7 @@
 #define NOT_IN_NAMES                                                                                         \
     "\\u0000-,./:-@\\[-\\^`{-\\u00a9\\u00ab-\\u00b4\\u00b6-\\u00b9\\u00bb-\\u00bf\\u00d7\\u00f7"             \
     "\\u2000-\\u2bff\\u3000-\\u3004\\u3008-\\u3020\\ue000-\\uf8ff\\ufe00-\\ufe6f\\uff00-\\uff20"
-#define NAME_PATTERN "^[^0-9" NOT_IN_NAMES "][^" NOT_IN_NAMES "]{0,127}$"
+#define NAME_PATTERN "^[^0-9" NOT_IN_NAMES "][^" NOT_IN_NAMES "]{0,127}"
 
 static json_t *json_text(struct strbuf *text) {
     json_t *value = text->failed ? NULL : json_stringn(text->data ? text->data : "", text->len);
@@ -106,9 +106,16 @@ static json_t *word_schema(const struct schema_row *row) {
                      docs);
 }
 
-static json_t *text_schema(enum schema_text text) {
+static json_t *text_schema(const struct schema_row *row) {
+    const enum schema_text text = row->text;
     if (text == SCHEMA_TEXT_NAME || text == SCHEMA_TEXT_BODY_NAME)
-        return json_pack("{s:s, s:s}", "type", "string", "pattern", NAME_PATTERN);
+        return json_pack("{s:s, s:s}", "type", "string", "pattern",
+                         row->counted ? NAME_PATTERN EMIT_PLACES_PATTERN "$" : NAME_PATTERN "$");
+    if (text == SCHEMA_TEXT_LIST) {
+        json_t *one = json_pack("{s:[s, s], s:i}", "type", "number", "string", "minLength", 1);
+        return json_pack("{s:s, s:{s:[O, {s:s, s:o, s:i, s:i}]}, s:i}", "type", "array", "items", "anyOf", one,
+                         "type", "array", "items", one, "minItems", 3, "maxItems", 3, "minItems", 1);
+    }
     if (text == SCHEMA_TEXT_VALUES) {
         json_t *one = json_pack("{s:[s, s, s], s:i}", "type", "number", "boolean", "string", "minLength", 1);
         return json_pack("{s:[O, {s:s, s:o, s:i, s:i}]}", "anyOf", one, "type", "array", "items", one,
@@ -130,10 +137,13 @@ static json_t *value_schema(const struct schema_row *row);
 
 // The element as a map, or the value of its short row.
 static json_t *item_schema(const struct schema_element *element) {
-    int only = schema_short_row(element);
+    const int only = schema_short_row(element), list = schema_list_row(element);
     if (only < 0)
         return element_reference(element);
-    return json_pack("{s:[o, o]}", "anyOf", value_schema(&element->rows[only]), element_reference(element));
+    json_t *forms = json_pack("[o, o]", value_schema(&element->rows[only]), element_reference(element));
+    if (list != only)
+        json_array_append_new(forms, value_schema(&element->rows[list]));
+    return json_pack("{s:o}", "anyOf", forms);
 }
 
 static json_t *list_schema(const struct schema_row *row) {
@@ -141,7 +151,7 @@ static json_t *list_schema(const struct schema_row *row) {
         return json_pack("{s:[s, s], s:o}", "type", "array", "null", "items", item_schema(row->child));
     const struct schema_row *key = &row->child->rows[schema_key_row(row->child)];
     return json_pack("{s:[s, s], s:o, s:o}", "type", "object", "null", "propertyNames",
-                     text_schema(key->text), "additionalProperties", item_schema(row->child));
+                     text_schema(key), "additionalProperties", item_schema(row->child));
 }
 
 static json_t *value_schema(const struct schema_row *row) {
@@ -154,7 +164,7 @@ static json_t *value_schema(const struct schema_row *row) {
     case SCHEMA_WORD:
         return word_schema(row);
     case SCHEMA_TEXT:
-        return text_schema(row->text);
+        return text_schema(row);
     case SCHEMA_VECTOR:
     case SCHEMA_PAIR:
     case SCHEMA_POINT:

@@ -17,6 +17,9 @@
     "[\\d.]+([eE][+\\-]?\\d+)?\\)*\\s*(if\\s|[!%*+\\-/;->\\^])\\s*[^\\s].*)"
 #define EMIT_NAME_PATTERN "[^\\d\\s!-,./:-@\\[-\\^`{-~][^\\s!-,./:-@\\[-\\^`{-~]{0,127}"
 
+// What the name of a copy ends in, as in pawn[3][0].
+#define EMIT_PLACES_PATTERN "(\\[[0-9]+\\])*"
+
 struct emit_lines {
     struct strbuf *out;
     uint32_t depth;

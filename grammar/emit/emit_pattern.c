@@ -42,12 +42,12 @@ static void add_number(struct builder *b, struct pattern *parent, const struct s
     add(b, parent, PATTERN_NUMBER, schema_range_info(row->range)->name, NULL);
 }
 
-static void add_text(struct builder *b, struct pattern *parent, enum schema_text text) {
-    if (text == SCHEMA_TEXT_FREE)
+static void add_text(struct builder *b, struct pattern *parent, const struct schema_row *row) {
+    const bool is_name = row->text == SCHEMA_TEXT_NAME || row->text == SCHEMA_TEXT_BODY_NAME;
+    if (row->text == SCHEMA_TEXT_FREE)
         add(b, parent, PATTERN_TEXT, NULL, NULL);
     else
-        add(b, parent, PATTERN_TYPE,
-            text == SCHEMA_TEXT_NAME || text == SCHEMA_TEXT_BODY_NAME ? "name" : "some_text", NULL);
+        add(b, parent, PATTERN_TYPE, !is_name ? "some_text" : row->counted ? "body_name" : "name", NULL);
 }
 
 static void add_values(struct builder *b, struct pattern *parent, const struct schema_row *row) {
@@ -63,7 +63,7 @@ static void add_values(struct builder *b, struct pattern *parent, const struct s
             add(b, parent, PATTERN_WORD, row->words[i], row->word_docs[i]);
         break;
     case SCHEMA_TEXT:
-        add_text(b, parent, row->text);
+        add_text(b, parent, row);
         break;
     case SCHEMA_COLOR:
         parent = add(b, parent, PATTERN_CHOICE, NULL, NULL);

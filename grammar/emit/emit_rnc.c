@@ -61,6 +61,7 @@ static void text_definitions(struct emit_lines *w) {
     emit_no_words(add_word, w->out);
     emit_line(w, "\nexpression = xsd:string { pattern = \"%s\" } - no_expression", EMIT_EXPRESSION_PATTERN);
     emit_line(w, "name = xsd:string { pattern = \"" EMIT_NAME_PATTERN "\" }");
+    emit_line(w, "body_name = xsd:string { pattern = \"" EMIT_NAME_PATTERN EMIT_PLACES_PATTERN "\" }");
     emit_line(w, "some_text = xsd:string { minLength = \"1\" }");
 }
 

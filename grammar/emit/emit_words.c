@@ -25,6 +25,7 @@ static void text_words(const struct schema_row *row, struct strbuf *out) {
         [SCHEMA_TEXT_PATH] = "path",
         [SCHEMA_TEXT_TARGET] = "way to a value",
         [SCHEMA_TEXT_VALUES] = "one to four numbers or expressions",
+        [SCHEMA_TEXT_LIST] = "list of values",
     };
     static const char *const files[] = {"", " of a scene file", " of an image file", " of a mesh file",
                                         " of a font"};

@@ -73,8 +73,8 @@ static void put_value(struct json_writer *w, const struct print_value *v, uint32
         print_json_text(w->out, str_from(row->words[*(const unsigned *)field]));
         break;
     case SCHEMA_TEXT:
-        if (row->text == SCHEMA_TEXT_VALUES)
-            ir_values_json(w->out, *(const str *)field);
+        if (schema_has_values(row))
+            ir_values_json(w->out, *(const str *)field, row->text == SCHEMA_TEXT_LIST);
         else
             print_json_text(w->out, *(const str *)field);
         break;

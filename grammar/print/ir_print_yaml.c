@@ -99,8 +99,8 @@ static void flow_value(struct yaml_writer *w, const struct print_value *v, struc
     }
     switch (row->kind) {
     case SCHEMA_TEXT:
-        if (row->text == SCHEMA_TEXT_VALUES)
-            ir_values_yaml(out, *(const str *)field);
+        if (schema_has_values(row))
+            ir_values_yaml(out, *(const str *)field, row->text == SCHEMA_TEXT_LIST);
         else
             print_yaml_text(out, *(const str *)field, true);
         break;
@@ -307,7 +307,7 @@ static void block_row(struct yaml_writer *w, const struct schema_row *row, const
         print_yaml_literal(w->out, *(const str *)field, below);
     } else {
         strbuf_char(w->out, ' ');
-        if (row->kind == SCHEMA_TEXT && row->text != SCHEMA_TEXT_VALUES)
+        if (row->kind == SCHEMA_TEXT && !schema_has_values(row))
             print_yaml_text(w->out, *(const str *)field, false);
         else
             flow_row(w, row, element, w->out);

@@ -275,7 +275,7 @@ static bool bind_composite(struct bind_context *context, struct bind_subject sub
 
 bool bind_value(struct bind_context *context, struct bind_subject subject, tree_index node, void *out) {
     const enum schema_kind kind = subject.row->kind;
-    if (kind == SCHEMA_TEXT && subject.row->text == SCHEMA_TEXT_VALUES)
+    if (schema_has_values(subject.row))
         return bind_values(context, subject, node, out);
     return schema_components(kind)[0] ? bind_composite(context, subject, node, out)
                                       : bind_scalar(context, subject, node, out);

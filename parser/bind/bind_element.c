@@ -410,6 +410,8 @@ bool bind_element(struct bind_context *context, struct bind_frame *frame, tree_i
     if (is_bare(context, frame, bare, node)) {
         frame->bare = true;
         struct bind_given given = {.key_span = frame->label, .value = node};
+        if (bind_kind(context, node) == TREE_LIST)
+            bare = schema_list_row(frame->schema);
         bind_row(context, frame, (uint32_t)bare, false, given);
     } else if (bind_kind(context, node) == TREE_MAP) {
         struct bind_key_rows known;

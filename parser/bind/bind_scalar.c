@@ -10,6 +10,7 @@
 #include "core/heap.h"
 #include "core/nearest.h"
 #include "core/number.h"
+#include "grammar/ir_copies.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -389,7 +390,8 @@ bool bind_name_text(struct bind_context *context, struct bind_subject subject, s
         return false;
     }
     const bool is_name = kind == SCHEMA_TEXT_NAME || kind == SCHEMA_TEXT_BODY_NAME;
-    if (subject.row->kind != SCHEMA_TEXT || !is_name || str_is_name(text))
+    if (subject.row->kind != SCHEMA_TEXT || !is_name ||
+        str_is_name(subject.row->counted ? ir_copies_base(text) : text))
         return true;
     diag_add(context->sink, DIAG_BAD_NAME, at, "'%.*s' is not a name",
              STR_ARG(say_text(context->scratch, text)));

@@ -140,6 +140,7 @@ str say_expected(struct arena *arena, const struct schema_row *row) {
         return row->text == SCHEMA_TEXT_PATH     ? STR("the path of a file")
                : row->text == SCHEMA_TEXT_FREE   ? STR("some text")
                : row->text == SCHEMA_TEXT_VALUES ? STR("one to four numbers or expressions")
+               : row->text == SCHEMA_TEXT_LIST   ? STR("a list of values")
                : row->text == SCHEMA_TEXT_TARGET ? STR("the way to a value")
                                                  : STR("a name");
     case SCHEMA_VECTOR:

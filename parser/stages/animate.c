@@ -277,6 +277,7 @@ static void take_still(struct evaluation *e) {
     for (uint32_t i = 0; i < e->count; i++)
         e->items[i].is_moved = false;
     evaluation_set_frame(e, 0, 0);
+    copies_make(e);
     evaluate_formulas(e);
 }
 
@@ -301,7 +302,8 @@ static void move_scene(struct motion *motion, bool has_frame) {
         find_elements(motion);
         choose_step(motion);
         for (uint32_t i = 0; i < motion->count; i++)
-            look_at_track(motion, &motion->items[i]);
+            if (!motion->items[i].is_repeat)
+                look_at_track(motion, &motion->items[i]);
         if (sink->errors == errors)
             look_at_formulas(motion);
         if (sink->errors == errors && errors == 0)
@@ -330,6 +332,8 @@ void animate_scene(struct loader *loader, struct ir_scene *scene) {
             forget_animation(loader, scene);
     }
     if (e) {
+        copies_check_focus(e);
+        copies_finish(e);
         evaluation_keep(e);
         evaluation_tell_unused(e);
     }

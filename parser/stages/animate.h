@@ -34,7 +34,8 @@ struct moving {
     uint32_t parameter; // 1 + its index in the scene's list; 0: a value of the scene
     struct curve curve; // of keys; count 0: the track's value is an expression
     struct moving_text text;
-    uint64_t cost; // cost of its value in a frame, in additions
+    bool is_repeat; // of another copy of the same entry
+    uint64_t cost;  // cost of its value in a frame, in additions
 };
 
 struct motion {
@@ -43,7 +44,7 @@ struct motion {
     const struct ir_animation *animation;
     struct evaluation *evaluation; // NULL: nothing else is computed
     struct moving *items;
-    uint32_t count;
+    uint32_t count, capacity;
     struct override_index index; // index of the names in the tracks
     // While all frames are checked.
     const struct bind_frame **elements; // elements in which tracks move something, each once

@@ -135,10 +135,10 @@ static bool take_parameter(const struct motion *motion, struct moving *m, uint32
     m->subject = bind_subject(m->frame, NULL);
     if (p->state != PARAMETER_DONE)
         return false; // reported
-    if (p->type == EXPRESSION_TRUTH)
+    if (p->value.type == EXPRESSION_TRUTH)
         return cannot_move(motion, m, "is true or false, which cannot move");
     m->parameter = index + 1;
-    m->width = p->type == EXPRESSION_TRIPLE ? 3 : 1;
+    m->width = p->value.type == EXPRESSION_TRIPLE ? 3 : 1;
     m->field = motion->evaluation->values + (size_t)EXPRESSION_WIDTH * index;
     p->is_used = true;
     p->is_moved = true;
@@ -435,7 +435,7 @@ static void tell_counted(const struct motion *motion, const struct override *pat
     const struct schema_row *row = number < 0 ? NULL : &SCHEMA_SCENE.rows[number];
     if (!row || row->many != SCHEMA_SEQUENCE || path->step_count < 2 || path->steps[1].kind != OVERRIDE_INDEX)
         return;
-    const struct ir_any_list list = ir_walk_list(row, motion->scene);
+    const struct ir_any_list list = ir_walk_list(row, path->scene);
     const struct ir_origin *places = origin(motion);
     const uint32_t last = list.count - 1;
     if (ir_place_label(places, ir_walk_item(row, list, 0)).source ==
@@ -459,12 +459,56 @@ static void tell_counted(const struct motion *motion, const struct override *pat
     }
 }
 
-static bool read_track(struct motion *motion, const struct ir_track *track, struct moving *m) {
+static void push(struct motion *motion, const struct moving *m) {
+    if (ARENA_IS_FULL(motion))
+        motion->items = arena_regrow(motion->loader->input->arena, motion->items, motion->count,
+                                     &motion->capacity, sizeof *motion->items);
+    motion->items[motion->count++] = *m;
+}
+
+// What is written for a copy moves with all copies. false: it cannot move (reported).
+static bool push_all(struct motion *motion, struct moving *m) {
+    struct override *path = m->path;
+    struct override_target target;
+    bool single;
+    const int number = schema_find_yaml(&SCHEMA_SCENE, path->steps[0].text, &single);
+    const struct schema_row *row = number < 0 ? NULL : &SCHEMA_SCENE.rows[number];
+    struct override_step *step = &path->steps[1];
+    uint32_t count = 1, first = 0;
+    if (!motion->evaluation || !motion->evaluation->copying) {
+        push(motion, m);
+        return true;
+    }
+    if (row && row->kind == SCHEMA_LIST && row->many == SCHEMA_SEQUENCE && path->step_count > 1)
+        first = copies_of(motion->evaluation, row, path->entry, &count);
+    else
+        row = NULL;
+    path->scene = motion->scene;
+    for (uint32_t i = 0; i < count; i++) {
+        if (row) {
+            step->kind = OVERRIDE_INDEX;
+            step->index = first + i;
+            copies_enter(motion->evaluation, row, first + i);
+        }
+        const bool good = override_walk(path, &target) && take_target(motion, m, &target);
+        copies_leave(motion->evaluation);
+        if (!good)
+            return false;
+        m->is_repeat = i > 0;
+        // Copies may share a material in place.
+        if (i == 0 || m->field != motion->items[motion->count - 1].field)
+            push(motion, m);
+    }
+    return true;
+}
+
+static bool read_track(struct motion *motion, const struct ir_track *track) {
     struct loader *loader = motion->loader;
     struct override *path = ARENA_NEW(scratch(motion), struct override);
     struct override_target target;
+    struct moving moving, *m = &moving;
     *path = (struct override){.loader = loader,
-                              .scene = motion->scene,
+                              .scene = motion->evaluation ? copies_written(motion->evaluation) : motion->scene,
                               .text = track->target,
                               .index = &motion->index,
                               .is_track = true};
@@ -475,13 +519,12 @@ static bool read_track(struct motion *motion, const struct ir_track *track, stru
         !take_target(motion, m, &target))
         return false;
     tell_counted(motion, path);
-    if (track->keys.count)
-        return take_keys(motion, m);
-    if (!compile(motion, m, track->value, value_place(motion, track), 0, &m->text))
+    if (track->keys.count ? !take_keys(motion, m)
+                          : !compile(motion, m, track->value, value_place(motion, track), 0, &m->text))
         return false;
-    for (uint32_t i = 0; i < m->text.count; i++)
+    for (uint32_t i = 0; i < m->text.count && !track->keys.count; i++)
         m->cost += m->text.values[i].cost;
-    return true;
+    return push_all(motion, m);
 }
 
 // ---- two tracks for one value
@@ -501,7 +544,7 @@ static void find_twice(const struct motion *motion) {
         qsort(sorted, motion->count, sizeof(struct moving *), compare_fields);
     for (uint32_t i = 1; i < motion->count; i++) {
         const struct moving *first = sorted[i - 1], *second = sorted[i];
-        if (first->field + first->width <= second->field)
+        if (first->field + first->width <= second->field || first->track == second->track)
             continue;
         if (first->track > second->track)
             first = sorted[i], second = sorted[i - 1];
@@ -513,11 +556,9 @@ static void find_twice(const struct motion *motion) {
 
 void motion_find(struct motion *motion) {
     const struct ir_tracks *tracks = &motion->animation->tracks;
-    motion->items = ARENA_ARRAY(motion->loader->input->arena, struct moving, tracks->count);
     for (uint32_t i = 0; i < tracks->count; i++) {
         look_beyond(motion, &tracks->items[i]);
-        if (read_track(motion, &tracks->items[i], &motion->items[motion->count]))
-            motion->count++;
+        read_track(motion, &tracks->items[i]);
     }
     find_twice(motion);
 }

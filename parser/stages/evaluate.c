@@ -1,6 +1,7 @@
 // Formulas of the scene: each is read once, and its value put in its place.
 #include "parser/stages/evaluate.h"
 #include "diag/codes/binding.h"
+#include "diag/codes/limit.h"
 #include "diag/diag_expression.h"
 
 #include "core/number.h"
@@ -8,6 +9,7 @@
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"
+#include "parser/tree/reader_text.h"
 #include "parser/tree/tree.h"
 
 #include <math.h>
@@ -34,7 +36,8 @@ static bool is_plain_mistake(struct evaluation *e, const struct ir_formula *f,
     if (f->row->kind == SCHEMA_COLOR && f->component == IR_FORMULA_WHOLE &&
         fault->problem != EXPRESSION_WRONG && mend_color(&e->loader->scratch, f->text, &safe).len)
         return true;
-    const struct diag_expression expression = {.names = e->names, .name_count = e->count};
+    const struct diag_expression expression = {.names = e->names,
+                                               .name_count = e->count + e->variable_count};
     return fault->problem == EXPRESSION_UNKNOWN_NUMBER && expression_is_name(f->text) &&
            !diag_expression_is_near(sink(e), &expression, f->text);
 }
@@ -80,24 +83,24 @@ static void note_text(struct evaluation *e, const struct ir_formula *f) {
 static bool out_of_range(struct evaluation *e, struct bind_subject subject, const struct ir_formula *f,
                          double value) {
     char digits[NUMBER_FORMAT_MAX];
-    if (e->is_quiet)
+    if (e->is_quiet || diag_is_repeat(sink(e), DIAG_OUT_OF_RANGE, f->at))
         return false;
     number_format(value, digits);
     diag_add(sink(e), DIAG_OUT_OF_RANGE, f->at, "%.*s is %s%s; it must be %s%s",
-             STR_ARG(say_subject(&e->loader->scratch, subject)), digits, e->suffix,
+             STR_ARG(say_subject(&e->loader->scratch, subject)), digits, evaluation_suffix(e),
              schema_range_info(f->row->range)->text, say_unit(f->row));
     note_text(e, f);
     return false;
 }
 
-static bool fits(struct evaluation *e, struct bind_subject subject, const struct ir_formula *f,
-                 double value) {
+bool evaluate_fits(struct evaluation *e, struct bind_subject subject, const struct ir_formula *f,
+                   double value) {
     char digits[NUMBER_FORMAT_MAX];
     if (!schema_in_range(f->row->range, value))
         return out_of_range(e, subject, f, value);
     if (f->row->kind != SCHEMA_INTEGER || value == floor(value))
         return true;
-    if (e->is_quiet)
+    if (e->is_quiet || diag_is_repeat(sink(e), DIAG_OUT_OF_RANGE, f->at))
         return false;
     number_format(value, digits);
     diag_add(sink(e), DIAG_OUT_OF_RANGE, f->at, "%.*s is %s%s; it must be a whole number",
@@ -157,16 +160,31 @@ static bool value_fits(struct evaluation *e, const struct bind_frame *frame, con
     for (uint32_t i = 0; i < (is_triple ? 3u : 1u); i++) {
         if (is_triple)
             subject.component = schema_components(f->row->kind)[i];
-        if (!fits(e, subject, f, value[i]))
+        if (!evaluate_fits(e, subject, f, value[i]))
             return false;
     }
     return true;
+}
+
+// The limit is on what is computed once: of a film, for each frame.
+static bool may_run(struct evaluation *e, const struct ir_formula *f, const struct expression *expression) {
+    const struct limits *limits = e->loader->input->limits;
+    e->operations += expression->cost;
+    if (e->operations <= limits->value[LIMIT_EVALUATIONS])
+        return true;
+    if (!e->is_over && !e->is_quiet) {
+        e->is_over = true;
+        reader_limit(sink(e), limits, LIMIT_EVALUATIONS, f->at, "computing the values of this scene takes too long");
+    }
+    return false;
 }
 
 static bool run(struct evaluation *e, const struct bind_frame *frame, const struct ir_formula *f,
                 const struct expression *expression) {
     struct expression_fault fault;
     double value[EXPRESSION_WIDTH];
+    if (!may_run(e, f, expression))
+        return false;
     if (!expression_at(expression, &e->at, value, &fault)) {
         evaluation_fault(e, DIAG_EXPRESSION, f->text, f->at, &fault);
         return false;
@@ -192,14 +210,13 @@ static void keep_moving(struct evaluation *e, const struct bind_frame *frame, co
     if (ARENA_IS_FULL(&e->moving))
         e->moving.items = arena_regrow(arena, e->moving.items, e->moving.count, &e->moving.capacity,
                                        sizeof *e->moving.items);
-    e->moving.items[e->moving.count++] = (struct moving_formula){f, *expression, keep_frame(arena, frame)};
+    e->moving.items[e->moving.count++] = (struct moving_formula){f, *expression, keep_frame(arena, frame), e->entry, e->places};
 }
 
-// Reads the formula, and puts its value in its place.
-static bool take(struct evaluation *e, const struct bind_frame *frame, const struct ir_formula *f) {
-    struct expression expression;
+static bool read(struct evaluation *e, const struct bind_frame *frame, const struct ir_formula *f,
+                 struct expression *expression) {
     struct expression_fault fault;
-    if (!expression_compile(f->text, &e->scope, &e->loader->scratch, &expression, &fault)) {
+    if (!expression_compile(f->text, &e->scope, &e->loader->scratch, expression, &fault)) {
         const uint32_t known = str_map_find(&e->by_name, str_slice(f->text, fault.begin, fault.end));
         const bool is_known = fault.problem == EXPRESSION_UNKNOWN_NUMBER && known;
         if (e->is_quiet || is_known)
@@ -210,8 +227,30 @@ static bool take(struct evaluation *e, const struct bind_frame *frame, const str
             evaluation_fault(e, DIAG_EXPRESSION, f->text, f->at, &fault);
         return false;
     }
-    if (!type_fits(f, expression.type))
-        return !e->is_quiet && wrong_type(e, frame, f, expression.type);
+    return type_fits(f, expression->type) || (!e->is_quiet && wrong_type(e, frame, f, expression->type));
+}
+
+bool evaluate_read(struct evaluation *e, const struct bind_frame *frame, const struct ir_formula *f,
+                   struct expression *expression) {
+    const uint32_t index = (uint32_t)(f - e->scene->formulas->items);
+    if (!e->entry || index >= e->formula_count)
+        return read(e, frame, f, expression);
+    struct copy_formula *of_copies = &e->formulas[index];
+    if (!of_copies->is_read) {
+        of_copies->is_good = read(e, frame, f, &of_copies->expression);
+        of_copies->is_read = true;
+    }
+    *expression = of_copies->expression;
+    return of_copies->is_good;
+}
+
+// Reads the formula, and puts its value in its place.
+static bool take(struct evaluation *e, const struct bind_frame *frame, const struct ir_formula *f) {
+    struct expression expression;
+    if (!evaluate_read(e, frame, f, &expression))
+        return false;
+    if (e->only_types)
+        return true;
     if (expression.moves)
         keep_moving(e, frame, f, &expression);
     return run(e, frame, f, &expression);
@@ -219,10 +258,13 @@ static bool take(struct evaluation *e, const struct bind_frame *frame, const str
 
 bool evaluate_moving(struct evaluation *e) {
     bool good = true;
+    e->operations = 0;
     for (uint32_t i = 0; i < e->moving.count && good; i++) {
         const struct moving_formula *m = &e->moving.items[i];
+        copies_enter_again(e, m->entry, m->places);
         good = run(e, m->frame, m->formula, &m->expression);
     }
+    copies_leave(e);
     return good;
 }
 
@@ -252,6 +294,8 @@ static void walk_list(struct evaluation *e, struct bind_frame *frame, const stru
         void *item = ir_walk_item(row, list, i);
         if (!parts && ((const struct ir_head *)item)->formulas == 0)
             continue;
+        if (!frame->parent && !copies_enter(e, row, i))
+            continue;
         struct bind_frame child = {.parent = frame,
                                    .schema = row->child,
                                    .via = row,
@@ -260,6 +304,8 @@ static void walk_list(struct evaluation *e, struct bind_frame *frame, const stru
                                    .label = ir_place_label(&e->loader->output->origin, item)};
         walk_element(e, &child);
     }
+    if (!frame->parent)
+        copies_leave(e);
 }
 
 static void put_default(struct evaluation *e, const struct bind_frame *frame, const struct schema_row *row) {
@@ -269,19 +315,28 @@ static void put_default(struct evaluation *e, const struct bind_frame *frame, co
            (size_t)row->size * (row->many == SCHEMA_FIXED ? row->fixed_count : 1));
 }
 
+// `if`, which says which copies there are (copies.c).
+static bool is_of_copies(const struct schema_row *row) {
+    return row->kind == SCHEMA_BOOLEAN && strcmp(row->name, "if") == 0;
+}
+
 static void walk_element(struct evaluation *e, struct bind_frame *frame) {
     struct ir_head *head = bind_head(frame);
     const struct ir_formulas *formulas = e->scene->formulas;
     for (uint32_t i = head->formulas; i; i = formulas->items[i].next) {
         const struct ir_formula *f = &formulas->items[i];
         const uint32_t row = (uint32_t)(f->row - frame->schema->rows);
-        if (!(head->poisoned & bind_bit(row)) && !take(e, frame, f)) {
+        if (is_of_copies(f->row) || (head->poisoned & bind_bit(row)))
+            continue;
+        if (!take(e, frame, f) && !e->only_types) {
             bind_poison(frame, row);
             put_default(e, frame, f->row);
         }
     }
     for (uint32_t i = 0; i < frame->schema->row_count; i++) {
         const struct schema_row *row = &frame->schema->rows[i];
+        if (row->child == &SCHEMA_VARIABLE)
+            continue;
         if (row->kind == SCHEMA_LIST) {
             walk_list(e, frame, row);
         } else if (row->kind == SCHEMA_ELEMENT) {
@@ -296,8 +351,22 @@ static void walk_element(struct evaluation *e, struct bind_frame *frame) {
     }
 }
 
+void evaluate_types(struct evaluation *e, const struct schema_row *row, void *item) {
+    const struct bind_frame root = {.schema = &SCHEMA_SCENE, .memory = e->scene};
+    struct bind_frame frame = {.parent = &root,
+                               .schema = row->child,
+                               .via = row,
+                               .memory = item,
+                               .name = name_of(row->child, item),
+                               .label = ir_place_label(&e->loader->output->origin, item)};
+    e->only_types = true;
+    walk_element(e, &frame);
+    e->only_types = false;
+}
+
 void evaluate_formulas(struct evaluation *e) {
     struct bind_frame root = {.schema = &SCHEMA_SCENE, .memory = e->scene};
+    e->operations = 0;
     e->moving.count = 0;
     if (e->scene->formulas && e->scene->formulas->count > 1)
         walk_element(e, &root);

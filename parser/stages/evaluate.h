@@ -7,7 +7,9 @@
 #include "core/expression.h"
 #include "core/str_map.h"
 #include "grammar/ir.h"
+#include "grammar/ir_copies.h"
 #include "grammar/ir_formula.h"
+#include "parser/bind/bind.h"
 #include "parser/stages/loader.h"
 
 enum parameter_state {
@@ -17,14 +19,20 @@ enum parameter_state {
     PARAMETER_BAD, // reported
 };
 
-struct parameter {
-    const struct ir_parameter *ir;
-    enum parameter_state state;
+// A number, truth, vector or colour (computed.c).
+struct computed {
     enum expression_type type;
     struct expression parts[3]; // one, or one for each component
     uint32_t part_count;        // 0: a colour as written
     str texts[3];
     uint32_t hex;
+    bool moves;
+};
+
+struct parameter {
+    const struct ir_parameter *ir;
+    enum parameter_state state;
+    struct computed value;
     bool moves;    // depends on the frame, or is moved by a track
     bool is_moved; // by a track, which has put its value there
     bool is_used;
@@ -36,18 +44,45 @@ struct moving_formula {
     const struct ir_formula *formula;
     struct expression expression;
     const struct bind_frame *frame; // the element
+    const struct copy_entry *entry; // of which it is a copy; NULL: of none
+    uint32_t places;
 };
+
+// A formula of an entry with copies is read once.
+struct copy_formula {
+    struct expression expression;
+    bool is_read, is_good;
+};
+
+// A variable of the entry whose formulas are being read or computed.
+struct copy_variable {
+    enum expression_type type;
+    bool moves;
+};
+
+struct copy_entry;
+struct copying;
 
 struct evaluation {
     struct loader *loader;
     struct ir_scene *scene;
     struct parameter *items; // of scene->parameters, in their order
-    str *names;
+    str *names; // of parameters, and then of variables
     uint32_t count;
+    struct copy_variable variables[IR_VARIABLES_MOST];
+    uint32_t variable_count;
+    const struct copy_entry *entry; // whose variables these are; NULL: there are none
+    uint32_t places;                // of the copy
+    struct copying *copying;        // NULL: nothing is copied
+    struct copy_formula *formulas;  // by their index
+    uint32_t formula_count;
+    bool only_types; // formulas are read, and not computed
+    uint64_t operations;            // done, in additions
+    bool is_over;                   // the limit on them, which was reported
     struct str_map by_name; // 1 + index
     uint32_t *order;        // each after those that it is computed from
     uint32_t ordered;
-    double *values; // EXPRESSION_WIDTH of each
+    double *values; // EXPRESSION_WIDTH of each, parameters first
     struct expression_scope scope;
     struct expression_at at;
     bool is_quiet;      // what has no value is not told
@@ -78,10 +113,54 @@ bool evaluation_compile(struct evaluation *evaluation, diag_code code, str text,
 void evaluation_fault(struct evaluation *evaluation, diag_code code, str text, span at,
                       const struct expression_fault *fault);
 
+// Whether a name can be that of a parameter or variable; else it is reported.
+bool evaluation_name_fits(const struct evaluation *evaluation, str name, span at, const char *what);
+// What messages end in: ", with i = 3, in frame 3".
+const char *evaluation_suffix(const struct evaluation *evaluation);
+// A parameter that a text names is used.
+void evaluation_mark_named(struct evaluation *evaluation, str text);
+
+// computed.c
+// Reads one to three expressions, or #rrggbb; `what` begins messages: "parameter 'tall'". false: reported.
+bool computed_read(struct evaluation *evaluation, str text, str what, span at, struct computed *computed);
+// false: there is none in this frame (reported, unless quiet).
+bool computed_value(struct evaluation *evaluation, const struct computed *computed, span at, double *value);
+
 // evaluate.c
 // Puts the values of all formulas of the scene in their places, for the frame that was set.
 void evaluate_formulas(struct evaluation *evaluation);
 // The same for those that move. false: one has no value that fits (reported, unless quiet).
 bool evaluate_moving(struct evaluation *evaluation);
+// Reads a formula of an element. false: reported.
+bool evaluate_read(struct evaluation *evaluation, const struct bind_frame *frame, const struct ir_formula *f,
+                   struct expression *expression);
+// Whether a number fits its row; else it is reported.
+bool evaluate_fits(struct evaluation *evaluation, struct bind_subject subject, const struct ir_formula *f,
+                   double value);
+// Reads all formulas of an entry that has no copies, so that mistakes in them are found.
+void evaluate_types(struct evaluation *evaluation, const struct schema_row *row, void *entry);
+
+// copies.c
+// Whether any entry of the scene has `for` or `if`.
+bool copies_are_written(const struct ir_scene *scene);
+// Gives the scene's lists what `for` and `if` make of their entries, still with their formulas.
+void copies_make(struct evaluation *evaluation);
+// The variables of an item of a list of the scene come into reach, with their values. false: the item is not
+// one that has values.
+bool copies_enter(struct evaluation *evaluation, const struct schema_row *row, uint32_t index);
+void copies_enter_again(struct evaluation *evaluation, const struct copy_entry *entry, uint32_t places);
+void copies_leave(struct evaluation *evaluation);
+// Appends ", with i = 3, j = 4".
+void copies_print_variables(const struct evaluation *evaluation, struct strbuf *out);
+// The first item of the scene's list that an entry made, as it is numbered there, and how many; an entry that
+// is as written makes one.
+uint32_t copies_of(const struct evaluation *evaluation, const struct schema_row *row, uint32_t entry,
+                   uint32_t *count);
+// The scene as it is written, for the paths of tracks.
+struct ir_scene *copies_written(const struct evaluation *evaluation);
+// Copies have values, and no formulas.
+void copies_finish(struct evaluation *evaluation);
+// Cameras that are focused on a copy.
+void copies_check_focus(struct evaluation *evaluation);
 
 #endif

@@ -60,6 +60,8 @@ void resolve_note_includes(struct loader *loader);
 struct ir_scene *merge_files(struct loader *loader);
 // Gives `into` its own places: those of `from`, with the rows of `into`.
 void merge_own_places(struct ir_origin *origin, struct ir_head *into, const struct ir_head *from);
+// Gives an element its own copies of the lists inside it.
+void merge_clone_lists(struct arena *arena, const struct schema_element *schema, void *memory);
 // Removes anonymous elements that nothing uses any more.
 void merge_compact(struct loader *loader, struct ir_scene *scene);
 

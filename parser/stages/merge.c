@@ -32,13 +32,12 @@ static void move_reference(void *context, struct visit_place place, struct ir_re
         reference->index += merging->first[bind_home_row(place.schema->rows[place.row].child)];
 }
 
-// Gives an element its own copies of the lists inside it.
-static void clone_lists(struct arena *arena, const struct schema_element *schema, void *memory) {
+void merge_clone_lists(struct arena *arena, const struct schema_element *schema, void *memory) {
     for (uint32_t i = 0; i < schema->row_count; i++) {
         const struct schema_row *row = &schema->rows[i];
         void *field = schema_field(row, memory);
         if (row->kind == SCHEMA_ELEMENT)
-            clone_lists(arena, row->child, field);
+            merge_clone_lists(arena, row->child, field);
         if (row->kind != SCHEMA_LIST)
             continue;
         struct ir_lights was;
@@ -46,7 +45,7 @@ static void clone_lists(struct arena *arena, const struct schema_element *schema
         memset(field, 0, row->size);
         for (uint32_t k = 0; k < was.count; k++) {
             bind_list_push(arena, field, (char *)was.items + (size_t)k * row->child->size, row->child->size);
-            clone_lists(arena, row->child, bind_list_item(field, k, row->child->size));
+            merge_clone_lists(arena, row->child, bind_list_item(field, k, row->child->size));
         }
     }
 }
@@ -55,7 +54,7 @@ static void *clone(const struct merging *merging, const struct schema_element *s
     struct arena *arena = merging->loader->input->arena;
     void *copy = arena_alloc(arena, schema->size);
     memcpy(copy, from, schema->size);
-    clone_lists(arena, schema, copy);
+    merge_clone_lists(arena, schema, copy);
     visit_references(schema, copy, move_reference, (void *)merging);
     return copy;
 }

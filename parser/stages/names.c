@@ -2,6 +2,7 @@
 #include "core/str_map.h"
 #include "diag/codes/reference.h"
 #include "grammar/ir.h"
+#include "grammar/ir_copies.h"
 #include "grammar/ir_walk.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
@@ -290,7 +291,8 @@ static void find_focus(struct resolving *resolving, struct named_list *things) {
     for (uint32_t i = 0; i < scene->cameras.count && !incomplete; i++) {
         const struct ir_camera *camera = &scene->cameras.items[i];
         const str name = camera->focus_on;
-        if (name.len && !(camera->head.poisoned & bind_bit((uint32_t)row)) && !is_body(find(things, name)))
+        if (name.len && !(camera->head.poisoned & bind_bit((uint32_t)row)) && !is_body(find(things, name)) &&
+            !is_body(find(things, ir_copies_base(name)))) // copies.c looks for a copy
             report_focus(resolving, things, ir_place_value(origin, &camera->head, &SCHEMA_CAMERA, "focus_on"),
                          name);
     }

@@ -50,6 +50,7 @@ struct override {
     span path;                    // all of it
     struct override_step steps[OVERRIDE_STEPS_MAX];
     uint32_t step_count;
+    uint32_t entry; // of the first list on the way, once it was followed
 };
 
 // The target of a path.

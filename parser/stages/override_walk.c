@@ -382,6 +382,7 @@ bool override_walk(struct override *o, struct override_target *target) {
         if (row->kind == SCHEMA_LIST && target->kind == OVERRIDE_ROW) {
             if (!find_entry(o, target, step, o->steps[step].text))
                 return false;
+            o->entry = step == 1 ? target->entry : o->entry;
         } else if (target->kind == OVERRIDE_ENTRY || row->kind == SCHEMA_ELEMENT ||
                    row->kind == SCHEMA_REFERENCE) {
             struct bind_frame *below = element_below(o, target, step);

@@ -5,11 +5,8 @@
 
 #include "core/heap.h"
 #include "core/number.h"
-#include "core/srgb.h"
-#include "grammar/ir_values.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
-#include "parser/tree/mend.h"
 
 enum {
     RING_NAMES_MOST = 8 // that a message lists
@@ -27,12 +24,24 @@ static span place_of(const struct evaluation *e, const struct parameter *p, cons
     return ir_place_value(origin(e), &p->ir->head, &SCHEMA_PARAMETER, row);
 }
 
+const char *evaluation_suffix(const struct evaluation *e) {
+    if (!e->variable_count)
+        return e->suffix;
+    struct strbuf text;
+    strbuf_init(&text);
+    copies_print_variables(e, &text);
+    const char *suffix =
+        arena_format(&e->loader->scratch, "%.*s%s", STR_ARG(strbuf_view(&text)), e->suffix).ptr;
+    strbuf_finish(&text);
+    return suffix;
+}
+
 void evaluation_fault(struct evaluation *e, diag_code code, str text, span at,
                       const struct expression_fault *fault) {
-    if (e->is_quiet)
+    if (e->is_quiet || diag_is_repeat(sink(e), code, at))
         return;
     const struct diag_expression expression = {
-        .text = text, .at = at, .suffix = e->suffix, .names = e->names, .name_count = e->count};
+        .text = text, .at = at, .suffix = evaluation_suffix(e), .names = e->names, .name_count = e->count + e->variable_count};
     diag_expression_fault(sink(e), e->loader->input->sources, code, &expression, fault);
 }
 
@@ -50,19 +59,17 @@ bool evaluation_compile(struct evaluation *e, diag_code code, str text, span at,
 
 // ---- names
 
-static bool has_good_name(const struct evaluation *e, const struct parameter *p) {
-    const span at = place_of(e, p, "name");
-    const str name = p->ir->name;
+bool evaluation_name_fits(const struct evaluation *e, str name, span at, const char *what) {
     if (expression_is_word(name) || str_equal(name, STR("tau"))) {
-        diag_add(sink(e), DIAG_BAD_NAME, at,
-                 "'%.*s' is a word of expressions and cannot be a parameter's name", STR_ARG(name));
+        diag_add(sink(e), DIAG_BAD_NAME, at, "'%.*s' is a word of expressions and cannot be a %s's name",
+                 STR_ARG(name), what);
         diag_help(sink(e), "choose another name");
         return false;
     }
     if (expression_is_free(name))
         return true;
-    diag_add(sink(e), DIAG_BAD_NAME, at, "'%.*s' cannot be a parameter's name",
-             STR_ARG(say_text(&e->loader->scratch, name)));
+    diag_add(sink(e), DIAG_BAD_NAME, at, "'%.*s' cannot be a %s's name",
+             STR_ARG(say_text(&e->loader->scratch, name)), what);
     str mended = arena_copy(&e->loader->scratch, name);
     for (size_t i = 0; i < mended.len; i++)
         if (mended.ptr[i] == '-')
@@ -82,56 +89,18 @@ static bool has_good_name(const struct evaluation *e, const struct parameter *p)
 
 static bool find(const void *context, str name, struct expression_name *found) {
     struct evaluation *e = (struct evaluation *)context;
+    for (uint32_t i = 0; i < e->variable_count; i++)
+        if (str_equal(e->names[e->count + i], name)) {
+            *found = (struct expression_name){e->variables[i].type, e->count + i, e->variables[i].moves};
+            return true;
+        }
     const uint32_t number = str_map_find(&e->by_name, name);
     if (!number || e->items[number - 1].state != PARAMETER_DONE)
         return false;
     struct parameter *p = &e->items[number - 1];
     p->is_used = true;
-    *found = (struct expression_name){p->type, number - 1, p->moves};
+    *found = (struct expression_name){p->value.type, number - 1, p->moves};
     return true;
-}
-
-static bool read_hex(str text, uint32_t *hex) {
-    return text.len == 7 && text.ptr[0] == '#' && mend_hex_digits(str_slice(text, 1, 7), hex);
-}
-
-static bool compile_parts(struct evaluation *e, struct parameter *p) {
-    const span at = place_of(e, p, "value");
-    str rest = p->ir->value;
-    if (read_hex(p->ir->value, &p->hex)) {
-        p->type = EXPRESSION_TRIPLE;
-        return true;
-    }
-    if (str_starts_with(p->ir->value, STR("#"))) {
-        diag_add(sink(e), DIAG_BAD_COLOR, at, "parameter '%.*s': '%.*s' is not a colour",
-                 STR_ARG(p->ir->name), STR_ARG(say_text(&e->loader->scratch, p->ir->value)));
-        diag_help(sink(e), "six hexadecimal digits, as in #ff8800");
-        return false;
-    }
-    const uint32_t count = ir_values_count(p->ir->value);
-    if (count != 1 && count != 3) {
-        diag_add(sink(e), DIAG_WRONG_COUNT, at,
-                 "parameter '%.*s' has %u values; a number has one, a vector or colour three",
-                 STR_ARG(p->ir->name), count);
-        return false;
-    }
-    bool good = true;
-    for (; p->part_count < count && ir_values_next(&rest, &p->texts[p->part_count]); p->part_count++) {
-        struct expression *part = &p->parts[p->part_count];
-        if (!evaluation_compile(e, DIAG_EXPRESSION, p->texts[p->part_count], at, part)) {
-            good = false;
-            continue;
-        }
-        p->moves |= part->moves;
-        if (count == 3 && part->type != EXPRESSION_NUMBER) {
-            diag_add(sink(e), DIAG_EXPRESSION, at,
-                     "a component of parameter '%.*s' must be a number; '%.*s' is %s", STR_ARG(p->ir->name),
-                     STR_ARG(p->texts[p->part_count]), expression_type_name(part->type));
-            good = false;
-        }
-    }
-    p->type = count == 3 ? EXPRESSION_TRIPLE : p->parts[0].type;
-    return good;
 }
 
 static bool is_row_written(const struct parameter *p, const char *row) {
@@ -142,10 +111,10 @@ static bool bounds_fit(const struct evaluation *e, const struct parameter *p) {
     const bool least = is_row_written(p, "min"), most = is_row_written(p, "max");
     if (!least && !most)
         return true;
-    if (p->type != EXPRESSION_NUMBER) {
+    if (p->value.type != EXPRESSION_NUMBER) {
         diag_add(sink(e), DIAG_PARAMETER_VALUE, place_of(e, p, least ? "min" : "max"),
                  "parameter '%.*s' is %s, which has no bounds", STR_ARG(p->ir->name),
-                 expression_type_name(p->type));
+                 expression_type_name(p->value.type));
         return false;
     }
     if (!least || !most || p->ir->min <= p->ir->max)
@@ -155,10 +124,17 @@ static bool bounds_fit(const struct evaluation *e, const struct parameter *p) {
     return false;
 }
 
+static bool read_value(struct evaluation *e, struct parameter *p) {
+    const str what = arena_format(&e->loader->scratch, "parameter '%.*s'", STR_ARG(p->ir->name));
+    const bool good = computed_read(e, p->ir->value, what, place_of(e, p, "value"), &p->value);
+    p->moves |= p->value.moves;
+    return good;
+}
+
 // After all that its expression names.
 static void compile(struct evaluation *e, uint32_t index) {
     struct parameter *p = &e->items[index];
-    const bool good = !p->ir->head.poisoned && has_good_name(e, p) && compile_parts(e, p) && bounds_fit(e, p);
+    const bool good = !p->ir->head.poisoned && evaluation_name_fits(e, p->ir->name, place_of(e, p, "name"), "parameter") && read_value(e, p) && bounds_fit(e, p);
     p->state = good ? PARAMETER_DONE : PARAMETER_BAD;
     if (good)
         e->order[e->ordered++] = index;
@@ -238,17 +214,17 @@ struct evaluation *evaluation_begin(struct loader *loader, struct ir_scene *scen
     struct arena *scratch = &loader->scratch;
     const struct ir_parameters *parameters = &scene->parameters;
     const bool has_formulas = scene->formulas && scene->formulas->count > 1;
-    if (parameters->count == 0 && !has_formulas)
+    if (parameters->count == 0 && !has_formulas && !copies_are_written(scene))
         return NULL;
     struct evaluation *e = ARENA_NEW(scratch, struct evaluation);
     *e = (struct evaluation){
         .loader = loader,
         .scene = scene,
         .items = ARENA_ARRAY(scratch, struct parameter, parameters->count),
-        .names = ARENA_ARRAY(scratch, str, parameters->count),
+        .names = ARENA_ARRAY(scratch, str, (size_t)parameters->count + IR_VARIABLES_MOST),
         .count = parameters->count,
         .order = ARENA_ARRAY(scratch, uint32_t, parameters->count),
-        .values = ARENA_ARRAY(scratch, double, heap_times(EXPRESSION_WIDTH, parameters->count)),
+        .values = ARENA_ARRAY(scratch, double, heap_times(EXPRESSION_WIDTH, (size_t)parameters->count + IR_VARIABLES_MOST)),
         .suffix = ""};
     e->scope = (struct expression_scope){find, e};
     e->at = (struct expression_at){.decodes = scene->image.transfer == IR_TRANSFER_SRGB, .values = e->values};
@@ -280,36 +256,15 @@ static bool is_in_bounds(struct evaluation *e, const struct parameter *p, double
     number_format(value, digits);
     number_format(low ? p->ir->min : p->ir->max, bound);
     diag_add(sink(e), DIAG_PARAMETER_VALUE, place_of(e, p, "value"),
-             "parameter '%.*s' is %s%s; it must be at %s %s", STR_ARG(p->ir->name), digits, e->suffix,
+             "parameter '%.*s' is %s%s; it must be at %s %s", STR_ARG(p->ir->name), digits, evaluation_suffix(e),
              low ? "least" : "most", bound);
     diag_note(sink(e), place_of(e, p, low ? "min" : "max"), "the bound is here");
     return false;
 }
 
 static bool evaluate(struct evaluation *e, struct parameter *p, double *value) {
-    struct expression_fault fault;
-    if (p->part_count == 0) {
-        for (int i = 0; i < 3; i++) {
-            const uint32_t byte = p->hex >> (16 - 8 * i) & 255;
-            value[i] = e->at.decodes ? srgb_decode_byte(byte) : byte / 255.0;
-        }
-        value[3] = p->hex;
-        return true;
-    }
-    for (uint32_t i = 0; i < p->part_count; i++) {
-        double part[EXPRESSION_WIDTH];
-        if (!expression_at(&p->parts[i], &e->at, part, &fault)) {
-            evaluation_fault(e, DIAG_EXPRESSION, p->texts[i], place_of(e, p, "value"), &fault);
-            return false;
-        }
-        if (p->part_count == 1)
-            memcpy(value, part, sizeof part);
-        else
-            value[i] = part[0];
-    }
-    if (p->part_count == 3)
-        value[3] = -1;
-    return p->type != EXPRESSION_NUMBER || is_in_bounds(e, p, value[0]);
+    return computed_value(e, &p->value, place_of(e, p, "value"), value) &&
+           (p->value.type != EXPRESSION_NUMBER || is_in_bounds(e, p, value[0]));
 }
 
 bool evaluation_set_frame(struct evaluation *e, double frame, double time) {
@@ -323,7 +278,7 @@ bool evaluation_set_frame(struct evaluation *e, double frame, double time) {
         struct parameter *p = &e->items[index];
         double *value = e->values + (size_t)EXPRESSION_WIDTH * index;
         if (p->is_moved)
-            good = (p->type != EXPRESSION_NUMBER || is_in_bounds(e, p, *value)) && good;
+            good = (p->value.type != EXPRESSION_NUMBER || is_in_bounds(e, p, *value)) && good;
         else if (!evaluate(e, p, value))
             good = false, p->state = e->is_quiet ? p->state : PARAMETER_BAD;
     }
@@ -334,7 +289,8 @@ void evaluation_stop(struct evaluation *e) {
     struct ir_origin *places = &e->loader->output->origin;
     for (uint32_t i = 0; i < e->moving.count; i++) {
         const struct moving_formula *m = &e->moving.items[i];
-        ir_formula_drop(places->arena, places->formulas, bind_head(m->frame), m->formula->row,
+        if (!m->entry) // else it is a copy, which has no formulas in the end
+            ir_formula_drop(places->arena, places->formulas, bind_head(m->frame), m->formula->row,
                         m->formula->slot, m->formula->component);
     }
     for (uint32_t i = 0; i < e->count; i++) {
@@ -343,7 +299,7 @@ void evaluation_stop(struct evaluation *e) {
         if (!p->moves || p->state != PARAMETER_DONE)
             continue;
         strbuf_init(&value);
-        expression_print(p->type, e->values + (size_t)EXPRESSION_WIDTH * i, &value);
+        expression_print(p->value.type, e->values + (size_t)EXPRESSION_WIDTH * i, &value);
         str text = strbuf_view(&value);
         if (text.len && text.ptr[0] == '[')
             text = str_slice(text, 1, text.len - 1);
@@ -358,12 +314,12 @@ void evaluation_keep(const struct evaluation *e) {
     for (uint32_t i = 0; i < e->count; i++) {
         struct ir_result *result = &formulas->results[i];
         *result =
-            (struct ir_result){.is_known = e->items[i].state == PARAMETER_DONE, .type = e->items[i].type};
+            (struct ir_result){.is_known = e->items[i].state == PARAMETER_DONE, .type = e->items[i].value.type};
         memcpy(result->value, e->values + (size_t)EXPRESSION_WIDTH * i, sizeof result->value);
     }
 }
 
-static void mark_named(struct evaluation *e, str text) {
+void evaluation_mark_named(struct evaluation *e, str text) {
     size_t at = 0;
     str name;
     while (expression_next_name(text, &at, &name)) {
@@ -377,8 +333,8 @@ static void mark_named(struct evaluation *e, str text) {
 static void mark_used(struct evaluation *e) {
     for (uint32_t i = e->ordered; i > 0; i--) {
         const struct parameter *p = &e->items[e->order[i - 1]];
-        for (uint32_t k = 0; p->is_used && k < p->part_count; k++)
-            mark_named(e, p->texts[k]); // the scene's own text may be that of a frame by now
+        for (uint32_t k = 0; p->is_used && k < p->value.part_count; k++)
+            evaluation_mark_named(e, p->value.texts[k]); // the scene's own text may be that of a frame by now
     }
 }
 

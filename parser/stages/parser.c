@@ -17,8 +17,8 @@ static void run_scene(struct loader *loader) {
     struct parser_output *output = loader->output;
     const double start = clock_seconds();
     override_apply(loader, output->scene);
-    animate_scene(loader, output->scene);
     names_resolve(loader, output->scene);
+    animate_scene(loader, output->scene);
     merge_compact(loader, output->scene);
     validate_scene(loader, output->scene);
     resolve_note_includes(loader);

@@ -1,0 +1,37 @@
+// Which bodies and lights of a scene are copies, and of what: `for` and `if` have been carried out.
+//
+// Ownership: the arena of the scene. Thread safety: immutable once the scene is loaded.
+#ifndef GLINT_GRAMMAR_IR_COPIES_H
+#define GLINT_GRAMMAR_IR_COPIES_H
+
+#include "core/strbuf.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct schema_row;
+
+enum {
+    IR_VARIABLES_MOST = 16 // of one entry
+};
+
+struct ir_copy {
+    uint32_t entry;  // in the list as it is written
+    uint32_t places; // in ir_copies.places: how many, and each variable's; 0: the entry itself
+};
+struct ir_copies {
+    struct ir_copy **lists; // by row of the scene, as long as the scene's list; NULL: it is as written
+    uint32_t *places;
+};
+
+// What an item of a list of the scene is called if it has no name: spheres[2], spheres[2][3]. `copies` may be
+// NULL.
+void ir_copies_label(const struct ir_copies *copies, const struct schema_row *list, uint32_t index,
+                     struct strbuf *out);
+// The places of an item: [3], [1][4]; nothing for an entry itself.
+void ir_copies_places(const struct ir_copies *copies, const struct schema_row *list, uint32_t index,
+                      struct strbuf *out);
+// A name without its places: pawn of pawn[3].
+str ir_copies_base(str name);
+
+#endif

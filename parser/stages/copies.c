@@ -1,0 +1,544 @@
+// Copies: what `for` and `if` make of the entries of the scene's lists.
+#include "diag/codes/binding.h"
+#include "diag/codes/limit.h"
+#include "diag/codes/reference.h"
+#include "parser/stages/copies.h"
+
+#include "core/heap.h"
+#include "parser/bind/say.h"
+#include "parser/bind/visit.h"
+#include "parser/tree/reader_text.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static struct diag_sink *sink(const struct evaluation *e) {
+    return e->loader->input->sink;
+}
+
+static uint32_t number_of(const struct schema_row *row) {
+    return (uint32_t)(row - SCHEMA_SCENE.rows);
+}
+
+static struct copied_list *list_of(const struct evaluation *e, const struct schema_row *row) {
+    return &e->copying->lists[number_of(row)];
+}
+
+static bool may_copy(const struct schema_row *row) {
+    return row->kind == SCHEMA_LIST && schema_find_row(row->child, STR("for")) >= 0;
+}
+
+// The rows of an entry that say what is made of it.
+struct copy_rows {
+    const struct schema_row *variables, *condition;
+    uint64_t bits;
+};
+
+static struct copy_rows rows_of(const struct schema_element *schema) {
+    const uint32_t list = (uint32_t)schema_find_row(schema, STR("for"));
+    const uint32_t condition = (uint32_t)schema_find_row(schema, STR("if"));
+    return (struct copy_rows){&schema->rows[list], &schema->rows[condition],
+                              bind_bit(list) | bind_bit(condition)};
+}
+
+static bool is_written(const struct copy_rows *rows, const void *entry) {
+    const struct ir_head *head = ir_walk_head(entry);
+    return ((head->written | head->poisoned) & rows->bits) != 0;
+}
+
+bool copies_are_written(const struct ir_scene *scene) {
+    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
+        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
+        if (!may_copy(row))
+            continue;
+        const struct copy_rows rows = rows_of(row->child);
+        const struct ir_any_list list = ir_walk_list(row, scene);
+        for (uint32_t k = 0; k < list.count; k++)
+            if (is_written(&rows, ir_walk_item(row, list, k)))
+                return true;
+    }
+    return false;
+}
+
+// ---- variables in reach
+
+void copies_leave(struct evaluation *e) {
+    e->entry = NULL;
+    e->variable_count = 0;
+}
+
+void copies_enter_again(struct evaluation *e, const struct copy_entry *entry, uint32_t places) {
+    if (!entry) {
+        copies_leave(e);
+        return;
+    }
+    if (e->entry != entry || e->variable_count != entry->variable_count) {
+        e->entry = entry;
+        e->variable_count = entry->variable_count;
+        memcpy(e->variables, entry->types, sizeof e->variables);
+        for (uint32_t i = 0; i < entry->variable_count; i++)
+            e->names[e->count + i] = entry->variables[i].ir->name;
+    }
+    for (uint32_t i = 0; places && i < entry->variable_count; i++)
+        copies_set(e, entry, i, e->copying->places[places + 1 + i]);
+}
+
+bool copies_enter(struct evaluation *e, const struct schema_row *row, uint32_t index) {
+    const struct copied_list *list = e->copying ? list_of(e, row) : NULL;
+    if (!list || (!list->made && !list->is_replaced))
+        return true;
+    copies_leave(e);
+    if (list->made) {
+        const struct ir_copy *copy = &list->made[index];
+        if (list->entries[copy->entry])
+            copies_enter_again(e, list->entries[copy->entry], copy->places);
+        e->places = copy->places;
+        return true;
+    }
+    if (index < list->own)
+        return !list->is_replaced[index];
+    const struct copy_clone *clone = &list->clones[index - list->own];
+    copies_enter_again(e, clone->entry, clone->places);
+    e->places = clone->places;
+    return true;
+}
+
+void copies_print_variables(const struct evaluation *e, struct strbuf *out) {
+    for (uint32_t i = 0; i < e->variable_count; i++) {
+        strbuf_format(out, "%s%.*s = ", i ? ", " : ", with ", STR_ARG(e->names[e->count + i]));
+        expression_print(e->variables[i].type, e->values + (size_t)EXPRESSION_WIDTH * (e->count + i), out);
+    }
+}
+
+// ---- one copy after the other
+
+static span for_place(const struct evaluation *e, const struct copy_entry *entry) {
+    return ir_place_value(&e->loader->output->origin, ir_walk_head(entry->memory), entry->row->child, "for");
+}
+
+static bool report_over(struct evaluation *e, const struct copy_entry *entry, double product, str factors) {
+    struct arena *scratch = &e->loader->scratch;
+    const char *what = schema_yaml_key(entry->row);
+    const str text = product <= 0x1p53 ? arena_format(scratch, "%.0f", product)
+                                       : arena_format(scratch, "%.3g", product);
+    e->copying->is_over = true;
+    reader_limit(sink(e), e->loader->input->limits, LIMIT_COPIES, for_place(e, entry),
+                 product > 0 ? arena_format(scratch, "this makes %.*s %s%.*s", STR_ARG(text), what,
+                                            STR_ARG(factors))
+                                   .ptr
+                             : arena_format(scratch, "this makes too many %s", what).ptr);
+    return false;
+}
+
+// Where no count depends on a variable, their product is known before any copy is made.
+static bool product_fits(struct evaluation *e, const struct copy_entry *entry) {
+    const uint64_t most = e->loader->input->limits->value[LIMIT_COPIES];
+    double product = 1;
+    str factors = STR("");
+    for (uint32_t i = 0; i < entry->variable_count; i++) {
+        const struct entry_variable *v = &entry->variables[i];
+        uint32_t size;
+        if (copies_used(e, entry, &SCHEMA_VARIABLE, v->ir) && !v->is_list)
+            return true;
+        if (!copies_size(e, entry, i, &size))
+            return false;
+        product *= size;
+        factors = arena_format(&e->loader->scratch, "%.*s%s%u", STR_ARG(factors), i ? " x " : ": ", size);
+    }
+    if ((double)e->copying->steps + product <= (double)most)
+        return true;
+    return report_over(e, entry, product, entry->variable_count > 1 ? factors : STR(""));
+}
+
+static uint32_t push_places(struct evaluation *e, const uint32_t *places, uint32_t count) {
+    struct copying *c = e->copying;
+    const uint32_t at = c->place_count;
+    while (c->place_count + count + 1 > c->place_capacity)
+        c->places = arena_regrow(e->loader->input->arena, c->places, c->place_count, &c->place_capacity,
+                                 sizeof *c->places);
+    c->places[at] = count;
+    memcpy(c->places + at + 1, places, count * sizeof *places);
+    c->place_count += count + 1;
+    return at;
+}
+
+static void push_made(struct evaluation *e, struct copied_list *list, struct ir_copy copy) {
+    if (ARENA_IS_FULL(list))
+        list->made = arena_regrow(e->loader->input->arena, list->made, list->count, &list->capacity,
+                                  sizeof *list->made);
+    list->made[list->count++] = copy;
+}
+
+static bool is_kept(struct evaluation *e, const struct copy_entry *entry, bool *kept) {
+    struct expression_fault fault;
+    double value[EXPRESSION_WIDTH];
+    if (!entry->condition) {
+        *kept = *(const bool *)schema_field_const(rows_of(entry->row->child).condition, entry->memory);
+        return true;
+    }
+    if (!expression_at(&entry->if_expression, &e->at, value, &fault)) {
+        evaluation_fault(e, DIAG_EXPRESSION, entry->condition->text, entry->condition->at, &fault);
+        return false;
+    }
+    *kept = value[0] != 0;
+    return true;
+}
+
+struct turning {
+    struct copy_entry *entry;
+    struct copied_list *list;
+    uint32_t index; // of the entry
+    uint32_t places[IR_VARIABLES_MOST];
+};
+
+static bool count_place(struct evaluation *e, const struct copy_entry *entry) {
+    return ++e->copying->steps <= e->loader->input->limits->value[LIMIT_COPIES] ||
+           report_over(e, entry, 0, STR(""));
+}
+
+// As an odometer: the last variable turns fastest.
+static bool turn(struct evaluation *e, struct turning *t, uint32_t variable) {
+    uint32_t size;
+    bool kept;
+    if (variable == t->entry->variable_count) {
+        if ((variable && !count_place(e, t->entry)) || !is_kept(e, t->entry, &kept))
+            return false;
+        if (kept)
+            push_made(e, t->list,
+                      (struct ir_copy){t->index, variable ? push_places(e, t->places, variable) : 0});
+        t->entry->count += kept;
+        return true;
+    }
+    if (!copies_size(e, t->entry, variable, &size))
+        return false;
+    if (size == 0)
+        return count_place(e, t->entry);
+    for (uint32_t i = 0; i < size; i++) {
+        t->places[variable] = i;
+        if (!copies_set(e, t->entry, variable, i) || !turn(e, t, variable + 1))
+            return false;
+    }
+    return true;
+}
+
+static void tell_unused(const struct evaluation *e, const struct copy_entry *entry) {
+    for (uint32_t i = 0; i < entry->variable_count; i++) {
+        if (entry->used >> i & 1)
+            continue;
+        const str name = entry->variables[i].ir->name;
+        diag_add(sink(e), DIAG_VARIABLE_UNUSED,
+                 ir_place_value(&e->loader->output->origin, &entry->variables[i].ir->head, &SCHEMA_VARIABLE, "name"),
+                 "nothing uses '%.*s', so that its copies are in the same place", STR_ARG(name));
+        diag_help(sink(e), "use it in an expression of this entry, or remove it");
+    }
+}
+
+static void replace(void *context, struct visit_place place, struct ir_reference *reference);
+
+static void use(void *context, struct visit_place place, struct ir_reference *reference) {
+    struct evaluation *e = context;
+    const struct schema_row *row = &place.schema->rows[place.row];
+    struct copy_entry *entry = (struct copy_entry *)e->entry;
+    if (ir_walk_is_inline(e->scene, row, reference))
+        entry->used |= copies_used(e, entry, row->child, ir_walk_referent(e->scene, row, reference));
+}
+
+// Its own formulas, and those of what is in place in it.
+static void find_used(struct evaluation *e, struct copy_entry *entry) {
+    e->entry = entry;
+    entry->used = copies_used(e, entry, entry->row->child, entry->memory);
+    visit_references(entry->row->child, entry->memory, use, e);
+}
+
+static void make_entry(struct evaluation *e, struct copied_list *list, struct copy_entry *entry,
+                       uint32_t index) {
+    struct turning turning = {.entry = entry, .list = list, .index = index};
+    const uint32_t before = list->count;
+    entry->is_good = copies_read_entry(e, entry);
+    if (entry->is_good)
+        find_used(e, entry);
+    if (entry->is_good && !e->copying->is_over && product_fits(e, entry) && !turn(e, &turning, 0))
+        list->count = before;
+    entry->count = list->count - before;
+    if (entry->is_good && entry->count > 1)
+        tell_unused(e, entry);
+    if (entry->count)
+        return;
+    // Nothing is made of it: mistakes in its formulas are found all the same.
+    if (entry->is_good) {
+        copies_enter_again(e, entry, 0);
+        evaluate_types(e, entry->row, entry->memory);
+    }
+    visit_references(entry->row->child, entry->memory, replace, e);
+}
+
+static struct copy_entry *new_entry(struct evaluation *e, const struct schema_row *row, void *memory) {
+    struct arena *scratch = &e->loader->scratch;
+    const int name = visit_name_row(row->child);
+    struct copy_entry *entry = ARENA_NEW(scratch, struct copy_entry);
+    struct bind_frame *root = ARENA_NEW(scratch, struct bind_frame);
+    struct bind_frame *frame = ARENA_NEW(scratch, struct bind_frame);
+    *root = (struct bind_frame){.schema = &SCHEMA_SCENE, .memory = e->scene};
+    *frame = (struct bind_frame){.parent = root,
+                                 .schema = row->child,
+                                 .via = row,
+                                 .memory = memory,
+                                 .label = ir_place_label(&e->loader->output->origin, memory)};
+    if (name >= 0)
+        frame->name = *(const str *)schema_field_const(&row->child->rows[name], memory);
+    *entry = (struct copy_entry){.row = row, .memory = memory, .frame = frame};
+    return entry;
+}
+
+// ---- materials and meshes in place
+
+static void list_pool(struct evaluation *e, const struct schema_row *row) {
+    struct copied_list *pool = list_of(e, row);
+    if (pool->is_replaced)
+        return;
+    pool->own = ir_walk_list(row, e->scene).count;
+    pool->is_replaced = ARENA_ARRAY(&e->loader->scratch, bool, pool->own + 1);
+}
+
+// What is in place in an entry that makes nothing.
+static void replace(void *context, struct visit_place place, struct ir_reference *reference) {
+    struct evaluation *e = context;
+    const struct schema_row *row = &place.schema->rows[place.row];
+    if (!ir_walk_is_inline(e->scene, row, reference))
+        return;
+    const struct schema_row *pool = ir_walk_pool(row->child);
+    void *item = (void *)ir_walk_referent(e->scene, row, reference);
+    list_pool(e, pool);
+    list_of(e, pool)->is_replaced[reference->index] = true;
+    if (e->entry && e->entry->is_good)
+        evaluate_types(e, pool, item);
+}
+
+static uint32_t push_clone(struct evaluation *e, const struct schema_row *row, const void *item) {
+    struct copied_list *pool = list_of(e, row);
+    struct arena *arena = e->loader->input->arena;
+    void *copy = arena_alloc(arena, row->child->size);
+    memcpy(copy, item, row->child->size);
+    merge_clone_lists(arena, row->child, copy);
+    if (pool->clone_count == pool->clone_capacity)
+        pool->clones = arena_regrow(&e->loader->scratch, pool->clones, pool->clone_count,
+                                    &pool->clone_capacity, sizeof *pool->clones);
+    pool->clones[pool->clone_count++] = (struct copy_clone){e->entry, e->places};
+    return ir_walk_append(arena, row, e->scene, copy);
+}
+
+// Copies with the same values of the variables that are in it share what is in place.
+static void clone_in_place(void *context, struct visit_place place, struct ir_reference *reference) {
+    struct evaluation *e = context;
+    const struct schema_row *row = &place.schema->rows[place.row];
+    if (!ir_walk_is_inline(e->scene, row, reference))
+        return;
+    const struct schema_row *pool = ir_walk_pool(row->child);
+    const void *item = ir_walk_referent(e->scene, row, reference);
+    const uint32_t used = copies_used(e, e->entry, row->child, item);
+    if (!used)
+        return;
+    list_pool(e, pool);
+    list_of(e, pool)->is_replaced[reference->index] = true;
+    uint32_t key[IR_VARIABLES_MOST + 2] = {number_of(pool), reference->index};
+    for (uint32_t i = 0; i < e->entry->variable_count; i++)
+        key[2 + i] = used >> i & 1 ? e->copying->places[e->places + 1 + i] : 0;
+    const str bytes = {(const char *)key, sizeof *key * (e->entry->variable_count + 2)};
+    uint32_t number = str_map_find(&e->copying->cloned, bytes);
+    if (number == 0) {
+        number = push_clone(e, pool, item) + 1;
+        *str_map_at(&e->copying->cloned, arena_copy(&e->loader->scratch, bytes)) = number;
+    }
+    reference->index = number - 1;
+}
+
+static bool has_lists(const struct schema_element *schema, const void *memory) {
+    for (uint32_t i = 0; i < schema->row_count; i++)
+        if (ir_walk_list(&schema->rows[i], memory).count)
+            return true;
+    return false;
+}
+
+// ---- the scene's list
+
+static void name_copy(struct evaluation *e, const struct schema_row *row, void *item, uint32_t places) {
+    const int name_row = visit_name_row(row->child);
+    str *name = name_row < 0 ? NULL : schema_field(&row->child->rows[name_row], item);
+    if (!name || !name->len || !places)
+        return;
+    char text[IR_VARIABLES_MOST * 12 + 1];
+    size_t length = 0;
+    const uint32_t *at = e->copying->places + places;
+    for (uint32_t i = 0; i < at[0]; i++)
+        length += (size_t)snprintf(text + length, sizeof text - length, "[%u]", at[1 + i]);
+    *name = arena_format(e->loader->input->arena, "%.*s%s", STR_ARG(*name), text);
+}
+
+static void fill(struct evaluation *e, const struct schema_row *row, struct copied_list *list,
+                 struct ir_any_list written) {
+    const struct copy_rows rows = rows_of(row->child);
+    struct arena *arena = e->loader->input->arena;
+    struct ir_any_list made = {
+        .items = arena_alloc(arena, heap_times(list->count ? list->count : 1, row->child->size)),
+        .count = list->count,
+        .capacity = list->count};
+    for (uint32_t i = 0; i < made.count; i++) {
+        const struct ir_copy *copy = &list->made[i];
+        const struct copy_entry *entry = list->entries[copy->entry];
+        void *item = ir_walk_item(row, made, i);
+        memcpy(item, ir_walk_item(row, written, copy->entry), row->child->size);
+        if (!entry)
+            continue;
+        memset(schema_field(rows.variables, item), 0, rows.variables->size);
+        *(bool *)schema_field(rows.condition, item) = true;
+        ((struct ir_head *)item)->written &= ~rows.bits;
+        name_copy(e, row, item, copy->places);
+        if (!entry->variable_count)
+            continue;
+        e->entry = entry;
+        e->places = copy->places;
+        if (has_lists(row->child, item))
+            merge_clone_lists(arena, row->child, item);
+        visit_references(row->child, item, clone_in_place, e);
+    }
+    memcpy(schema_field(row, e->scene), &made, sizeof made);
+    copies_leave(e);
+}
+
+static void make_list(struct evaluation *e, const struct schema_row *row) {
+    const struct copy_rows rows = rows_of(row->child);
+    const struct ir_any_list written = ir_walk_list(row, e->scene);
+    struct copied_list *list = list_of(e, row);
+    uint32_t at = 0;
+    while (at < written.count && !is_written(&rows, ir_walk_item(row, written, at)))
+        at++;
+    if (at == written.count)
+        return;
+    list->entries = ARENA_ARRAY(&e->loader->scratch, struct copy_entry *, written.count);
+    list->first = ARENA_ARRAY(&e->loader->scratch, uint32_t, (size_t)written.count + 1);
+    for (uint32_t i = 0; i < written.count; i++) {
+        void *item = ir_walk_item(row, written, i);
+        list->first[i] = list->count;
+        if (is_written(&rows, item)) {
+            list->entries[i] = new_entry(e, row, item);
+            make_entry(e, list, list->entries[i], i);
+        } else {
+            push_made(e, list, (struct ir_copy){i, 0});
+        }
+    }
+    list->first[written.count] = list->count;
+    if (!list->made)
+        list->made = ARENA_ARRAY(e->loader->input->arena, struct ir_copy, 1);
+    fill(e, row, list, written);
+}
+
+static void tell_sink(struct evaluation *e) {
+    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
+        const struct copied_list *list = &e->copying->lists[i];
+        const uint32_t count = list->entries ? ir_walk_list(&SCHEMA_SCENE.rows[i], &e->copying->written).count : 0;
+        for (uint32_t k = 0; k < count; k++)
+            if (list->entries[k]) {
+                const struct ir_head *head = ir_walk_head(list->entries[k]->memory);
+                diag_repeats(sink(e), e->loader->output->origin.elements.items[head->origin].at);
+            }
+    }
+}
+
+void copies_make(struct evaluation *e) {
+    struct arena *scratch = &e->loader->scratch;
+    if (e->copying || !copies_are_written(e->scene))
+        return;
+    e->copying = ARENA_NEW(scratch, struct copying);
+    *e->copying = (struct copying){.written = *e->scene,
+                                   .lists = ARENA_ARRAY(scratch, struct copied_list, SCHEMA_SCENE.row_count)};
+    str_map_init(&e->copying->cloned, scratch);
+    push_places(e, (const uint32_t[]){0}, 0); // none
+    e->formula_count = e->scene->formulas->count;
+    e->formulas = ARENA_ARRAY(scratch, struct copy_formula, e->formula_count);
+    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++)
+        if (may_copy(&SCHEMA_SCENE.rows[i]))
+            make_list(e, &SCHEMA_SCENE.rows[i]);
+    copies_leave(e);
+    tell_sink(e);
+    struct ir_copies *copies = ARENA_NEW(e->loader->input->arena, struct ir_copies);
+    copies->lists = ARENA_ARRAY(e->loader->input->arena, struct ir_copy *, SCHEMA_SCENE.row_count);
+    copies->places = e->copying->places;
+    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++)
+        copies->lists[i] = e->copying->lists[i].made;
+    e->loader->output->origin.copies = copies;
+}
+
+// ---- afterwards
+
+uint32_t copies_of(const struct evaluation *e, const struct schema_row *row, uint32_t entry, uint32_t *count) {
+    const struct copied_list *list = e && e->copying ? list_of(e, row) : NULL;
+    *count = 1;
+    if (!list || !list->made)
+        return entry;
+    *count = list->first[entry + 1] - list->first[entry];
+    return list->first[entry];
+}
+
+struct ir_scene *copies_written(const struct evaluation *e) {
+    return e->copying ? &e->copying->written : e->scene;
+}
+
+void copies_finish(struct evaluation *e) {
+    for (uint32_t i = 0; e->copying && i < SCHEMA_SCENE.row_count; i++) {
+        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
+        const struct copied_list *list = &e->copying->lists[i];
+        const struct ir_any_list items = ir_walk_list(row, e->scene);
+        for (uint32_t k = 0; list->made && k < items.count; k++)
+            if (list->made[k].places)
+                ir_formulas_forget(row->child, ir_walk_item(row, items, k));
+        for (uint32_t k = list->own; list->is_replaced && k < items.count; k++)
+            ir_formulas_forget(row->child, ir_walk_item(row, items, k));
+    }
+}
+
+// ---- what cameras are focused on
+
+static const struct copy_entry *find_entry(const struct evaluation *e, str name) {
+    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
+        const struct copied_list *list = &e->copying->lists[i];
+        const uint32_t count = list->entries ? ir_walk_list(&SCHEMA_SCENE.rows[i], &e->copying->written).count : 0;
+        for (uint32_t k = 0; k < count; k++)
+            if (list->entries[k] && str_equal(list->entries[k]->frame->name, name))
+                return list->entries[k];
+    }
+    return NULL;
+}
+
+static bool has_body(const struct evaluation *e, str name, str *similar) {
+    const str base = ir_copies_base(name);
+    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
+        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
+        const struct ir_any_list list = ir_walk_list(row, e->scene);
+        const int name_row = may_copy(row) ? visit_name_row(row->child) : -1;
+        for (uint32_t k = 0; name_row >= 0 && k < list.count; k++) {
+            const str other = *(const str *)schema_field_const(&row->child->rows[name_row], ir_walk_item(row, list, k));
+            if (str_equal(other, name))
+                return true;
+            if (!similar->len && str_equal(ir_copies_base(other), base))
+                *similar = other;
+        }
+    }
+    return false;
+}
+
+void copies_check_focus(struct evaluation *e) {
+    const struct ir_cameras *cameras = &e->scene->cameras;
+    for (uint32_t i = 0; e->copying && i < cameras->count; i++) {
+        const str name = cameras->items[i].focus_on;
+        const struct copy_entry *entry = name.len ? find_entry(e, ir_copies_base(name)) : NULL;
+        str similar = STR("");
+        if (!entry || !entry->is_good || has_body(e, name, &similar))
+            continue;
+        diag_add(sink(e), DIAG_UNKNOWN_BODY,
+                 ir_place_value(&e->loader->output->origin, &cameras->items[i].head, &SCHEMA_CAMERA, "focus_on"),
+                 "there is no body '%.*s': of '%.*s' there are %llu copies", STR_ARG(name),
+                 STR_ARG(entry->frame->name), (unsigned long long)entry->count);
+        if (similar.len)
+            diag_help(sink(e), "one of them is '%.*s'", STR_ARG(similar));
+    }
+}
