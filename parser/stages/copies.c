@@ -150,15 +150,19 @@ static bool product_fits(struct evaluation *e, const struct copy_entry *entry) {
     return report_over(e, entry, product, entry->variable_count > 1 ? factors : STR(""));
 }
 
-static uint32_t push_places(struct evaluation *e, const uint32_t *places, uint32_t count) {
+static void push_place(struct evaluation *e, uint32_t place) {
     struct copying *c = e->copying;
-    const uint32_t at = c->place_count;
-    while (c->place_count + count + 1 > c->place_capacity)
+    if (c->place_count == c->place_capacity)
         c->places = arena_regrow(e->loader->input->arena, c->places, c->place_count, &c->place_capacity,
                                  sizeof *c->places);
-    c->places[at] = count;
-    memcpy(c->places + at + 1, places, count * sizeof *places);
-    c->place_count += count + 1;
+    c->places[c->place_count++] = place;
+}
+
+static uint32_t push_places(struct evaluation *e, const uint32_t *places, uint32_t count) {
+    const uint32_t at = e->copying->place_count;
+    push_place(e, count);
+    for (uint32_t i = 0; i < count; i++)
+        push_place(e, places[i]);
     return at;
 }
 
