@@ -4,23 +4,27 @@
 
 static const struct ir_copy *copy_of(const struct ir_copies *copies, const struct schema_row *list,
                                      uint32_t index) {
-    const struct ir_copy *of_list = copies ? copies->lists[list - SCHEMA_SCENE.rows] : NULL;
+    const bool is_scenes = list >= SCHEMA_SCENE.rows && list < SCHEMA_SCENE.rows + SCHEMA_SCENE.row_count;
+    const struct ir_copy *of_list = copies && is_scenes ? copies->lists[list - SCHEMA_SCENE.rows] : NULL;
     return of_list ? &of_list[index] : NULL;
 }
 
-void ir_copies_places(const struct ir_copies *copies, const struct schema_row *list, uint32_t index,
-                      struct strbuf *out) {
+uint32_t ir_copies_entry(const struct ir_copies *copies, const struct schema_row *list, uint32_t index) {
     const struct ir_copy *copy = copy_of(copies, list, index);
-    const uint32_t *places = copy && copy->places ? copies->places + copy->places : NULL;
-    for (uint32_t i = 0; places && i < places[0]; i++)
-        strbuf_format(out, "[%u]", places[1 + i]);
+    return copy ? copy->entry : index;
+}
+
+const uint32_t *ir_copies_at(const struct ir_copies *copies, const struct schema_row *list, uint32_t index) {
+    const struct ir_copy *copy = copy_of(copies, list, index);
+    return copy && copy->places ? copies->places + copy->places : NULL;
 }
 
 void ir_copies_label(const struct ir_copies *copies, const struct schema_row *list, uint32_t index,
                      struct strbuf *out) {
-    const struct ir_copy *copy = copy_of(copies, list, index);
-    strbuf_format(out, "%s[%u]", schema_yaml_key(list), copy ? copy->entry : index);
-    ir_copies_places(copies, list, index, out);
+    strbuf_format(out, "%s[%u]", schema_yaml_key(list), ir_copies_entry(copies, list, index));
+    const uint32_t *places = ir_copies_at(copies, list, index);
+    for (uint32_t i = 0; places && i < places[0]; i++)
+        strbuf_format(out, "[%u]", places[1 + i]);
 }
 
 str ir_copies_base(str name) {

@@ -28,9 +28,10 @@ struct ir_copies {
 // NULL.
 void ir_copies_label(const struct ir_copies *copies, const struct schema_row *list, uint32_t index,
                      struct strbuf *out);
-// The places of an item: [3], [1][4]; nothing for an entry itself.
-void ir_copies_places(const struct ir_copies *copies, const struct schema_row *list, uint32_t index,
-                      struct strbuf *out);
+// The places of an item in the ranges of its variables, after the number of them; NULL: it is no copy.
+const uint32_t *ir_copies_at(const struct ir_copies *copies, const struct schema_row *list, uint32_t index);
+// The entry in the list as it is written that an item of a scene's list comes from. Any other row: `index`.
+uint32_t ir_copies_entry(const struct ir_copies *copies, const struct schema_row *list, uint32_t index);
 // A name without its places: pawn of pawn[3].
 str ir_copies_base(str name);
 

@@ -3,6 +3,8 @@
 
 #include "assets/file/asset_file.h"
 #include "grammar/ir.h"
+#include "grammar/ir_copies.h"
+#include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 
 #include <stdarg.h>
@@ -12,16 +14,30 @@ enum {
     NOTE_MAX = 512
 };
 
+// "this sphere", or of a copy "sphere spheres[2][3]"
+static str unnamed(const struct lint *lint, const struct lint_body *body, const char *word) {
+    const char *kind = body->is->element->name;
+    const struct schema_row *list = ir_walk_pool(body->is->element);
+    if (!ir_copies_at(lint->origin->copies, list, body->is->index))
+        return arena_format(lint->arena, "%s %s", word, kind);
+    struct strbuf label;
+    strbuf_init(&label);
+    ir_copies_label(lint->origin->copies, list, body->is->index, &label);
+    const str words = arena_format(lint->arena, "%s %.*s", kind, STR_ARG(strbuf_view(&label)));
+    strbuf_finish(&label);
+    return words;
+}
+
 str lint_words(struct lint *lint, const struct lint_body *body) {
     if (body->is->name.len)
         return arena_format(lint->arena, "%s '%.*s'", body->is->element->name, STR_ARG(body->is->name));
-    return arena_format(lint->arena, "this %s", body->is->element->name);
+    return unnamed(lint, body, "this");
 }
 
 str lint_words_other(struct lint *lint, const struct lint_body *body) {
     if (body->is->name.len)
         return lint_words(lint, body);
-    return arena_format(lint->arena, "a %s", body->is->element->name);
+    return unnamed(lint, body, "a");
 }
 
 str lint_material_words(struct lint *lint, const struct ir_material *material) {

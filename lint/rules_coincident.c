@@ -76,6 +76,23 @@ static int compare_keys(const void *a, const void *b) {
     return x->body < y->body ? -1 : x->body > y->body;
 }
 
+static void report_repeat(struct lint *lint, const struct lint_body *body, const struct lint_body *other) {
+    const span at = lint_place(lint, body), there = lint_place(lint, other);
+    const bool is_one_entry = at.source == there.source && at.begin == there.begin; // both are its copies
+    const str words = lint_words(lint, body);
+    if (is_one_entry) {
+        diag_add(lint->sink, DIAG_COINCIDENT, at, "%.*s is at exactly the same place as %.*s", STR_ARG(words),
+                 STR_ARG(lint_words_other(lint, other)));
+        diag_help(lint->sink,
+                  "use every variable of 'for' where the body is, or keep one of the copies with 'if'");
+        return;
+    }
+    diag_add(lint->sink, DIAG_COINCIDENT, at, "%.*s is at exactly the same place as another one",
+             STR_ARG(words));
+    diag_note(lint->sink, there, "this is the other one");
+    diag_help(lint->sink, "remove one of the two, or move it");
+}
+
 static bool *find_repeats(struct lint *lint) {
     struct place_key *keys = ARENA_ARRAY(lint->arena, struct place_key, lint->body_count);
     bool *repeats = ARENA_ARRAY(lint->arena, bool, lint->body_count);
@@ -89,12 +106,8 @@ static bool *find_repeats(struct lint *lint) {
             first = i;
             continue;
         }
-        const struct lint_body *body = &lint->bodies[keys[i].body];
         repeats[keys[i].body] = true;
-        diag_add(lint->sink, DIAG_COINCIDENT, lint_place(lint, body),
-                 "%.*s is at exactly the same place as another one", STR_ARG(lint_words(lint, body)));
-        diag_note(lint->sink, lint_place(lint, &lint->bodies[keys[first].body]), "this is the other one");
-        diag_help(lint->sink, "remove one of the two, or move it");
+        report_repeat(lint, &lint->bodies[keys[i].body], &lint->bodies[keys[first].body]);
     }
     return repeats;
 }

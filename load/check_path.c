@@ -1,6 +1,7 @@
 // From a place in a file to its path in the scene, by walking the table.
 #include "load/check_path.h"
 
+#include "grammar/ir_copies.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 
@@ -42,7 +43,7 @@ static void walk_list(struct search *s, const struct schema_row *row, const void
         if (ir_walk_is_anonymous(row->child, item))
             continue; // written inline, where it is used
         const struct ir_head *head = ir_walk_head(item);
-        uint32_t index = position++;
+        const uint32_t index = ir_copies_entry(s->session->origin.copies, row, position++);
         if (head->origin >= s->session->origin.elements.count)
             continue;
         const struct ir_element_origin *origin = &s->session->origin.elements.items[head->origin];

@@ -3,6 +3,9 @@
 
 #include "core/json_write.h"
 #include "grammar/ir.h"
+#include "grammar/ir_copies.h"
+#include "grammar/ir_walk.h"
+#include "grammar/schema.h"
 #include "load/where.h"
 
 #include <math.h>
@@ -39,7 +42,7 @@ static void put_light(const struct pick *pick, uint32_t light, struct strbuf *ou
     else if (lights->items[light].name.len)
         strbuf_format(out, "'%.*s'", STR_ARG(lights->items[light].name));
     else
-        strbuf_format(out, "lights[%u]", light);
+        ir_copies_label(pick->session->origin.copies, ir_walk_pool(&SCHEMA_LIGHT), light, out);
 }
 
 static void put_lights(const struct pick *pick, const struct reference_segment *s, struct strbuf *out) {
@@ -293,7 +296,14 @@ static void json_target(struct json_writer *w, const struct pick *pick, const st
     if (!where_find(pick->session, s->body, s->triangle, &where))
         return;
     json_write_text(w, "kind", str_from(where.kind));
-    json_write_integer(w, "index", where.index);
+    json_write_integer(w, "index", ir_copies_entry(where.copies, where.row, where.index));
+    const uint32_t *places = ir_copies_at(where.copies, where.row, where.index);
+    if (places) {
+        json_open_list(w, "copy");
+        for (uint32_t i = 0; i < places[0]; i++)
+            json_write_integer(w, NULL, places[1 + i]);
+        json_close_list(w);
+    }
     json_write_text(w, "name", where.name);
     json_write_integer(w, "triangle", s->triangle);
     json_place(w, "place", pick, where.at);

@@ -2,6 +2,8 @@
 #include "core/clock.h"
 #include "core/strbuf.h"
 #include "grammar/ir.h"
+#include "grammar/ir_copies.h"
+#include "grammar/ir_walk.h"
 #include "grammar/print/ir_print.h"
 #include "grammar/schema.h"
 #include "load/where.h"
@@ -67,10 +69,12 @@ static void say_hit(struct viewer *v, const struct render_segment *hit) {
     if (found)
         put_place(session, where.at, &text);
     const size_t begin = text.len;
-    if (hit->light != IR_NO_INDEX)
-        strbuf_format(&text, "lights[%u], at %.6g", hit->light, hit->distance);
-    else
+    if (hit->light != IR_NO_INDEX) {
+        ir_copies_label(session->origin.copies, ir_walk_pool(&SCHEMA_LIGHT), hit->light, &text);
+        strbuf_format(&text, ", at %.6g", hit->distance);
+    } else {
         where_body_words(found ? &where : NULL, &text);
+    }
     if (found) {
         strbuf_cstr(&text, ", ");
         where_material_words(&where, &text);

@@ -1,5 +1,5 @@
-// Values of parameters, tracks and variables: numbers, expressions or #rrggbb, as a value, or as a list of them in
-// YAML. In the list of a variable three of them may stand in a list of their own.
+// Values of parameters, tracks and variables: numbers, expressions or #rrggbb, as a value, or as a list of
+// them in YAML. In the list of a variable three of them may stand in a list of their own.
 #include "diag/codes/binding.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
@@ -12,6 +12,12 @@ static bool wrong_count(struct bind_context *context, struct bind_subject subjec
     diag_add(context->sink, DIAG_WRONG_COUNT, tree_span(context->tree, node),
              "%.*s has %u values; it can have up to %d", STR_ARG(say_subject(context->scratch, subject)),
              count, IR_VALUES_MOST);
+    return false;
+}
+
+static bool no_values(struct bind_context *context, struct bind_subject subject, tree_index list) {
+    diag_add(context->sink, DIAG_EMPTY_TEXT, tree_span(context->tree, list), "%.*s has no value in it",
+             STR_ARG(say_subject(context->scratch, subject)));
     return false;
 }
 
@@ -41,7 +47,8 @@ static bool take_list(struct bind_context *context, struct bind_subject subject,
                       bool may_nest, struct strbuf *text);
 
 static bool not_a_vector(struct bind_context *context, struct bind_subject subject, span at, uint32_t count) {
-    diag_add(context->sink, DIAG_WRONG_COUNT, at, "a vector among the values of %.*s has %u numbers; it must have 3",
+    diag_add(context->sink, DIAG_WRONG_COUNT, at,
+             "a vector among the values of %.*s has %u numbers; it must have 3",
              STR_ARG(say_subject(context->scratch, subject)), count);
     return false;
 }
@@ -61,7 +68,8 @@ static bool take_vector(struct bind_context *context, struct bind_subject subjec
 }
 
 // XML writes them in brackets: [0, 0, 1], [2, 0, 1].
-static bool vectors_fit(struct bind_context *context, struct bind_subject subject, tree_index node, str text) {
+static bool vectors_fit(struct bind_context *context, struct bind_subject subject, tree_index node,
+                        str text) {
     str value, inside;
     while (ir_values_next(&text, &value))
         if (ir_values_open(value, &inside) && ir_values_count(inside) != 3)
@@ -71,7 +79,7 @@ static bool vectors_fit(struct bind_context *context, struct bind_subject subjec
 
 static bool take_list(struct bind_context *context, struct bind_subject subject, tree_index list,
                       bool may_nest, struct strbuf *text) {
-    bool good = tree_first(context->tree, list) || empty_value(context, subject, list);
+    bool good = tree_first(context->tree, list) || no_values(context, subject, list);
     for (tree_index item = tree_first(context->tree, list); item; item = tree_next(context->tree, item)) {
         if (bind_is_known(context, item)) {
             good = false;

@@ -162,6 +162,8 @@ static bool take_target(const struct motion *motion, struct moving *m, const str
     m->row_number = target->row;
     m->row = &m->frame->schema->rows[target->row];
     m->subject = bind_subject(m->frame, m->row);
+    if (m->row->child == &SCHEMA_VARIABLE || m->frame->schema == &SCHEMA_VARIABLE)
+        return cannot_move(motion, m, "says which copies there are, and they are the same in all frames");
     if (target->kind == OVERRIDE_ENTRY)
         return cannot_move(motion, m, "holds several values: move one of them");
     for (const struct bind_frame *f = m->frame; f; f = f->parent)
@@ -507,11 +509,12 @@ static bool read_track(struct motion *motion, const struct ir_track *track) {
     struct override *path = ARENA_NEW(scratch(motion), struct override);
     struct override_target target;
     struct moving moving, *m = &moving;
-    *path = (struct override){.loader = loader,
-                              .scene = motion->evaluation ? copies_written(motion->evaluation) : motion->scene,
-                              .text = track->target,
-                              .index = &motion->index,
-                              .is_track = true};
+    *path =
+        (struct override){.loader = loader,
+                          .scene = motion->evaluation ? copies_written(motion->evaluation) : motion->scene,
+                          .text = track->target,
+                          .index = &motion->index,
+                          .is_track = true};
     path->track = target_place(motion, track);
     path->source = path->track.source;
     *m = (struct moving){.track = track, .path = path};

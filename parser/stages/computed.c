@@ -13,7 +13,8 @@ static bool read_hex(str text, uint32_t *hex) {
     return text.len == 7 && text.ptr[0] == '#' && mend_hex_digits(str_slice(text, 1, 7), hex);
 }
 
-static bool read_parts(struct evaluation *e, str text, uint32_t count, str what, span at, struct computed *c) {
+static bool read_parts(struct evaluation *e, str text, uint32_t count, str what, span at,
+                       struct computed *c) {
     bool good = true;
     for (; c->part_count < count && ir_values_next(&text, &c->texts[c->part_count]); c->part_count++) {
         struct expression *part = &c->parts[c->part_count];
@@ -65,7 +66,7 @@ bool computed_value(struct evaluation *e, const struct computed *c, span at, dou
     for (uint32_t i = 0; i < c->part_count; i++) {
         double part[EXPRESSION_WIDTH];
         if (!expression_at(&c->parts[i], &e->at, part, &fault)) {
-            evaluation_fault(e, DIAG_EXPRESSION, c->texts[i], at, &fault);
+            evaluation_fault(e, DIAG_EXPRESSION, c->texts[i], at, evaluation_suffix(e), &fault);
             return false;
         }
         if (c->part_count == 1)

@@ -1,8 +1,8 @@
 // Copies: what `for` and `if` make of the entries of the scene's lists.
+#include "parser/stages/copies.h"
 #include "diag/codes/binding.h"
 #include "diag/codes/limit.h"
 #include "diag/codes/reference.h"
-#include "parser/stages/copies.h"
 
 #include "core/heap.h"
 #include "parser/bind/say.h"
@@ -119,14 +119,14 @@ static span for_place(const struct evaluation *e, const struct copy_entry *entry
 static bool report_over(struct evaluation *e, const struct copy_entry *entry, double product, str factors) {
     struct arena *scratch = &e->loader->scratch;
     const char *what = schema_yaml_key(entry->row);
-    const str text = product <= 0x1p53 ? arena_format(scratch, "%.0f", product)
-                                       : arena_format(scratch, "%.3g", product);
+    const str text =
+        product <= 0x1p53 ? arena_format(scratch, "%.0f", product) : arena_format(scratch, "%.3g", product);
     e->copying->is_over = true;
-    reader_limit(sink(e), e->loader->input->limits, LIMIT_COPIES, for_place(e, entry),
-                 product > 0 ? arena_format(scratch, "this makes %.*s %s%.*s", STR_ARG(text), what,
-                                            STR_ARG(factors))
-                                   .ptr
-                             : arena_format(scratch, "this makes too many %s", what).ptr);
+    reader_limit(
+        sink(e), e->loader->input->limits, LIMIT_COPIES, for_place(e, entry),
+        product > 0
+            ? arena_format(scratch, "this makes %.*s %s%.*s", STR_ARG(text), what, STR_ARG(factors)).ptr
+            : arena_format(scratch, "this makes too many %s", what).ptr);
     return false;
 }
 
@@ -181,7 +181,8 @@ static bool is_kept(struct evaluation *e, const struct copy_entry *entry, bool *
         return true;
     }
     if (!expression_at(&entry->if_expression, &e->at, value, &fault)) {
-        evaluation_fault(e, DIAG_EXPRESSION, entry->condition->text, entry->condition->at, &fault);
+        evaluation_fault(e, DIAG_EXPRESSION, entry->condition->text, entry->condition->at,
+                         evaluation_suffix(e), &fault);
         return false;
     }
     *kept = value[0] != 0;
@@ -225,18 +226,6 @@ static bool turn(struct evaluation *e, struct turning *t, uint32_t variable) {
     return true;
 }
 
-static void tell_unused(const struct evaluation *e, const struct copy_entry *entry) {
-    for (uint32_t i = 0; i < entry->variable_count; i++) {
-        if (entry->used >> i & 1)
-            continue;
-        const str name = entry->variables[i].ir->name;
-        diag_add(sink(e), DIAG_VARIABLE_UNUSED,
-                 ir_place_value(&e->loader->output->origin, &entry->variables[i].ir->head, &SCHEMA_VARIABLE, "name"),
-                 "nothing uses '%.*s', so that its copies are in the same place", STR_ARG(name));
-        diag_help(sink(e), "use it in an expression of this entry, or remove it");
-    }
-}
-
 static void replace(void *context, struct visit_place place, struct ir_reference *reference);
 
 static void use(void *context, struct visit_place place, struct ir_reference *reference) {
@@ -264,8 +253,6 @@ static void make_entry(struct evaluation *e, struct copied_list *list, struct co
     if (entry->is_good && !e->copying->is_over && product_fits(e, entry) && !turn(e, &turning, 0))
         list->count = before;
     entry->count = list->count - before;
-    if (entry->is_good && entry->count > 1)
-        tell_unused(e, entry);
     if (entry->count)
         return;
     // Nothing is made of it: mistakes in its formulas are found all the same.
@@ -439,7 +426,8 @@ static void make_list(struct evaluation *e, const struct schema_row *row) {
 static void tell_sink(struct evaluation *e) {
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
         const struct copied_list *list = &e->copying->lists[i];
-        const uint32_t count = list->entries ? ir_walk_list(&SCHEMA_SCENE.rows[i], &e->copying->written).count : 0;
+        const uint32_t count =
+            list->entries ? ir_walk_list(&SCHEMA_SCENE.rows[i], &e->copying->written).count : 0;
         for (uint32_t k = 0; k < count; k++)
             if (list->entries[k]) {
                 const struct ir_head *head = ir_walk_head(list->entries[k]->memory);
@@ -474,7 +462,8 @@ void copies_make(struct evaluation *e) {
 
 // ---- afterwards
 
-uint32_t copies_of(const struct evaluation *e, const struct schema_row *row, uint32_t entry, uint32_t *count) {
+uint32_t copies_of(const struct evaluation *e, const struct schema_row *row, uint32_t entry,
+                   uint32_t *count) {
     const struct copied_list *list = e && e->copying ? list_of(e, row) : NULL;
     *count = 1;
     if (!list || !list->made)
@@ -500,12 +489,37 @@ void copies_finish(struct evaluation *e) {
     }
 }
 
+static void tell_unused(const struct evaluation *e, const struct copy_entry *entry) {
+    for (uint32_t i = 0; i < entry->variable_count; i++) {
+        if (entry->used >> i & 1)
+            continue;
+        const str name = entry->variables[i].ir->name;
+        diag_add(sink(e), DIAG_VARIABLE_UNUSED,
+                 ir_place_value(&e->loader->output->origin, &entry->variables[i].ir->head, &SCHEMA_VARIABLE,
+                                "name"),
+                 "nothing uses '%.*s', so that its copies are in the same place", STR_ARG(name));
+        diag_help(sink(e), "use it in an expression of this entry, or remove it");
+    }
+}
+
+void copies_tell_unused(const struct evaluation *e) {
+    for (uint32_t i = 0; e->copying && i < SCHEMA_SCENE.row_count; i++) {
+        const struct copied_list *list = &e->copying->lists[i];
+        const uint32_t count =
+            list->entries ? ir_walk_list(&SCHEMA_SCENE.rows[i], &e->copying->written).count : 0;
+        for (uint32_t k = 0; k < count; k++)
+            if (list->entries[k] && list->entries[k]->is_good && list->entries[k]->count > 1)
+                tell_unused(e, list->entries[k]);
+    }
+}
+
 // ---- what cameras are focused on
 
 static const struct copy_entry *find_entry(const struct evaluation *e, str name) {
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
         const struct copied_list *list = &e->copying->lists[i];
-        const uint32_t count = list->entries ? ir_walk_list(&SCHEMA_SCENE.rows[i], &e->copying->written).count : 0;
+        const uint32_t count =
+            list->entries ? ir_walk_list(&SCHEMA_SCENE.rows[i], &e->copying->written).count : 0;
         for (uint32_t k = 0; k < count; k++)
             if (list->entries[k] && str_equal(list->entries[k]->frame->name, name))
                 return list->entries[k];
@@ -520,7 +534,8 @@ static bool has_body(const struct evaluation *e, str name, str *similar) {
         const struct ir_any_list list = ir_walk_list(row, e->scene);
         const int name_row = may_copy(row) ? visit_name_row(row->child) : -1;
         for (uint32_t k = 0; name_row >= 0 && k < list.count; k++) {
-            const str other = *(const str *)schema_field_const(&row->child->rows[name_row], ir_walk_item(row, list, k));
+            const str other =
+                *(const str *)schema_field_const(&row->child->rows[name_row], ir_walk_item(row, list, k));
             if (str_equal(other, name))
                 return true;
             if (!similar->len && str_equal(ir_copies_base(other), base))
@@ -538,10 +553,11 @@ void copies_check_focus(struct evaluation *e) {
         str similar = STR("");
         if (!entry || !entry->is_good || has_body(e, name, &similar))
             continue;
-        diag_add(sink(e), DIAG_UNKNOWN_BODY,
-                 ir_place_value(&e->loader->output->origin, &cameras->items[i].head, &SCHEMA_CAMERA, "focus_on"),
-                 "there is no body '%.*s': of '%.*s' there are %llu copies", STR_ARG(name),
-                 STR_ARG(entry->frame->name), (unsigned long long)entry->count);
+        diag_add(
+            sink(e), DIAG_UNKNOWN_BODY,
+            ir_place_value(&e->loader->output->origin, &cameras->items[i].head, &SCHEMA_CAMERA, "focus_on"),
+            "there is no body '%.*s': of '%.*s' there are %llu copies", STR_ARG(name),
+            STR_ARG(entry->frame->name), (unsigned long long)entry->count);
         if (similar.len)
             diag_help(sink(e), "one of them is '%.*s'", STR_ARG(similar));
     }

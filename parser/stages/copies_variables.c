@@ -22,8 +22,8 @@ static bool hides_parameter(const struct evaluation *e, str name, span at) {
     const uint32_t number = str_map_find(&e->by_name, name);
     if (!number)
         return false;
-    const span there = ir_place_value(&e->loader->output->origin, &e->items[number - 1].ir->head,
-                                      &SCHEMA_PARAMETER, "name");
+    const span there =
+        ir_place_value(&e->loader->output->origin, &e->items[number - 1].ir->head, &SCHEMA_PARAMETER, "name");
     if (there.source != at.source)
         return false;
     diag_add(sink(e), DIAG_VARIABLE, at, "the variable '%.*s' has the name of a parameter", STR_ARG(name));
@@ -50,13 +50,13 @@ static bool name_fits(const struct evaluation *e, const struct entry_variable *v
 // ---- values
 
 static void report_moves(const struct evaluation *e, span at, const char *what) {
-    diag_add(sink(e), DIAG_COPIES_MOVE, at, "%s depends on the frame; copies are the same in all frames", what);
+    diag_add(sink(e), DIAG_COPIES_MOVE, at, "%s depends on the frame; copies are the same in all frames",
+             what);
     diag_help(sink(e), "leave 'frame' and 'time' out of it, and parameters that depend on them");
 }
 
 static bool read_count(struct evaluation *e, const struct copy_entry *entry, struct entry_variable *v) {
-    const struct schema_row *row =
-        &SCHEMA_VARIABLE.rows[schema_find_row(&SCHEMA_VARIABLE, STR("count"))];
+    const struct schema_row *row = &SCHEMA_VARIABLE.rows[schema_find_row(&SCHEMA_VARIABLE, STR("count"))];
     v->formula = ir_formula_of(e->scene->formulas, &v->ir->head, row, -1, IR_FORMULA_WHOLE);
     if (!v->formula)
         return true;
@@ -130,8 +130,8 @@ bool copies_read_entry(struct evaluation *e, struct copy_entry *entry) {
         return false;
     if (list.count > IR_VARIABLES_MOST) {
         const struct ir_variable *v = ir_walk_item(&schema->rows[row], list, IR_VARIABLES_MOST);
-        diag_add(sink(e), DIAG_VARIABLE, place_of(e, v, "name"), "an entry can have %d variables; this one has %u",
-                 IR_VARIABLES_MOST, list.count);
+        diag_add(sink(e), DIAG_VARIABLE, place_of(e, v, "name"),
+                 "an entry can have %d variables; this one has %u", IR_VARIABLES_MOST, list.count);
         return false;
     }
     entry->variable_count = list.count;
@@ -155,7 +155,7 @@ bool copies_size(struct evaluation *e, const struct copy_entry *entry, uint32_t 
         return true;
     }
     if (!expression_at(&v->expression, &e->at, value, &fault)) {
-        evaluation_fault(e, DIAG_EXPRESSION, v->formula->text, v->formula->at, &fault);
+        evaluation_fault(e, DIAG_EXPRESSION, v->formula->text, v->formula->at, evaluation_suffix(e), &fault);
         return false;
     }
     const struct bind_frame frame = {.parent = entry->frame,

@@ -28,17 +28,21 @@ static struct bind_subject subject_of(const struct bind_frame *frame, const stru
     return subject;
 }
 
+enum {
+    SHORT_NAME = 2
+};
+
 // A word that is near no name, such as `yes` or `red`, was not meant as a formula: the binder reports what is
-// expected there.
+// expected there. In an entry with variables, a short one may well have been.
 static bool is_plain_mistake(struct evaluation *e, const struct ir_formula *f,
                              const struct expression_fault *fault) {
     bool safe;
     if (f->row->kind == SCHEMA_COLOR && f->component == IR_FORMULA_WHOLE &&
         fault->problem != EXPRESSION_WRONG && mend_color(&e->loader->scratch, f->text, &safe).len)
         return true;
-    const struct diag_expression expression = {.names = e->names,
-                                               .name_count = e->count + e->variable_count};
+    const struct diag_expression expression = {.names = e->names, .name_count = e->count + e->variable_count};
     return fault->problem == EXPRESSION_UNKNOWN_NUMBER && expression_is_name(f->text) &&
+           !(e->variable_count && f->text.len <= SHORT_NAME) &&
            !diag_expression_is_near(sink(e), &expression, f->text);
 }
 
@@ -174,7 +178,8 @@ static bool may_run(struct evaluation *e, const struct ir_formula *f, const stru
         return true;
     if (!e->is_over && !e->is_quiet) {
         e->is_over = true;
-        reader_limit(sink(e), limits, LIMIT_EVALUATIONS, f->at, "computing the values of this scene takes too long");
+        reader_limit(sink(e), limits, LIMIT_EVALUATIONS, f->at,
+                     "computing the values of this scene takes too long");
     }
     return false;
 }
@@ -186,7 +191,7 @@ static bool run(struct evaluation *e, const struct bind_frame *frame, const stru
     if (!may_run(e, f, expression))
         return false;
     if (!expression_at(expression, &e->at, value, &fault)) {
-        evaluation_fault(e, DIAG_EXPRESSION, f->text, f->at, &fault);
+        evaluation_fault(e, DIAG_EXPRESSION, f->text, f->at, evaluation_suffix(e), &fault);
         return false;
     }
     if (!value_fits(e, frame, f, expression, value))
@@ -210,7 +215,8 @@ static void keep_moving(struct evaluation *e, const struct bind_frame *frame, co
     if (ARENA_IS_FULL(&e->moving))
         e->moving.items = arena_regrow(arena, e->moving.items, e->moving.count, &e->moving.capacity,
                                        sizeof *e->moving.items);
-    e->moving.items[e->moving.count++] = (struct moving_formula){f, *expression, keep_frame(arena, frame), e->entry, e->places};
+    e->moving.items[e->moving.count++] =
+        (struct moving_formula){f, *expression, keep_frame(arena, frame), e->entry, e->places};
 }
 
 static bool read(struct evaluation *e, const struct bind_frame *frame, const struct ir_formula *f,
@@ -224,7 +230,7 @@ static bool read(struct evaluation *e, const struct bind_frame *frame, const str
         if (is_plain_mistake(e, f, &fault))
             tell_plain_mistake(e, frame, f);
         else
-            evaluation_fault(e, DIAG_EXPRESSION, f->text, f->at, &fault);
+            evaluation_fault(e, DIAG_EXPRESSION, f->text, f->at, e->suffix, &fault);
         return false;
     }
     return type_fits(f, expression->type) || (!e->is_quiet && wrong_type(e, frame, f, expression->type));

@@ -67,7 +67,7 @@ struct evaluation {
     struct loader *loader;
     struct ir_scene *scene;
     struct parameter *items; // of scene->parameters, in their order
-    str *names; // of parameters, and then of variables
+    str *names;              // of parameters, and then of variables
     uint32_t count;
     struct copy_variable variables[IR_VARIABLES_MOST];
     uint32_t variable_count;
@@ -76,9 +76,9 @@ struct evaluation {
     struct copying *copying;        // NULL: nothing is copied
     struct copy_formula *formulas;  // by their index
     uint32_t formula_count;
-    bool only_types; // formulas are read, and not computed
-    uint64_t operations;            // done, in additions
-    bool is_over;                   // the limit on them, which was reported
+    bool only_types;        // formulas are read, and not computed
+    uint64_t operations;    // done, in additions
+    bool is_over;           // the limit on them, which was reported
     struct str_map by_name; // 1 + index
     uint32_t *order;        // each after those that it is computed from
     uint32_t ordered;
@@ -110,7 +110,8 @@ void evaluation_tell_unused(struct evaluation *evaluation);
 // Reads a text as an expression. false: reported with the code.
 bool evaluation_compile(struct evaluation *evaluation, diag_code code, str text, span at,
                         struct expression *expression);
-void evaluation_fault(struct evaluation *evaluation, diag_code code, str text, span at,
+// The suffix is what the message ends in.
+void evaluation_fault(struct evaluation *evaluation, diag_code code, str text, span at, const char *suffix,
                       const struct expression_fault *fault);
 
 // Whether a name can be that of a parameter or variable; else it is reported.
@@ -160,6 +161,8 @@ uint32_t copies_of(const struct evaluation *evaluation, const struct schema_row 
 struct ir_scene *copies_written(const struct evaluation *evaluation);
 // Copies have values, and no formulas.
 void copies_finish(struct evaluation *evaluation);
+// Warns of variables that nothing uses.
+void copies_tell_unused(const struct evaluation *evaluation);
 // Cameras that are focused on a copy.
 void copies_check_focus(struct evaluation *evaluation);
 

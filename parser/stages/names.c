@@ -47,6 +47,12 @@ static uint64_t order_of(const struct loader *loader, const struct named *named)
     return rank << 32 | at.begin;
 }
 
+// Those of 'for'; none where an element has no copies.
+static struct ir_any_list variables_of(const struct schema_element *schema, const void *memory) {
+    const int row = schema_find_row(schema, STR("for"));
+    return row < 0 ? (struct ir_any_list){0} : ir_walk_list(&schema->rows[row], memory);
+}
+
 static uint32_t count_names(const struct schema_row *row, void *scene) {
     void *field = schema_field(row, scene);
     int name_row = visit_name_row(row->child);
@@ -124,6 +130,32 @@ static void report_duplicates(struct loader *loader, const struct named_list *li
     }
 }
 
+static const struct named *find(const struct named_list *list, str name) {
+    uint32_t found = str_map_find(&list->by_name, name);
+    return found ? &list->items[found - 1] : NULL;
+}
+
+static void number_names(struct named_list *list) {
+    for (uint32_t i = 0; i < list->count; i++)
+        if (i == 0 || !str_equal(list->items[i].name, list->items[i - 1].name))
+            *str_map_at(&list->by_name, list->items[i].name) = i + 1;
+}
+
+// pawn[3] is the name of a copy, where pawn is written with 'for'.
+static void report_copies_names(struct loader *loader, const struct named_list *list) {
+    for (uint32_t i = 0; i < list->count; i++) {
+        const str base = ir_copies_base(list->items[i].name);
+        const struct named *entry = base.len < list->items[i].name.len ? find(list, base) : NULL;
+        if (!entry || !variables_of(entry->schema, entry->head).count)
+            continue;
+        const str name = say_text(&loader->scratch, list->items[i].name);
+        diag_add(loader->input->sink, DIAG_DUPLICATE_NAME, place_of(loader, &list->items[i]),
+                 "'%.*s' is the name of a copy of '%.*s'", STR_ARG(name), STR_ARG(base));
+        diag_note(loader->input->sink, place_of(loader, entry), "its copies are made here");
+        diag_help(loader->input->sink, "rename one of the two");
+    }
+}
+
 // References.
 
 enum {
@@ -159,17 +191,6 @@ static void note_may_be_unread(struct resolving *resolving, const char *what, sp
                                      what, STR_ARG(say_text(&loader->scratch, name))));
 }
 
-static const struct named *find(const struct named_list *list, str name) {
-    uint32_t found = str_map_find(&list->by_name, name);
-    return found ? &list->items[found - 1] : NULL;
-}
-
-static void number_names(struct named_list *list) {
-    for (uint32_t i = 0; i < list->count; i++)
-        if (i == 0 || !str_equal(list->items[i].name, list->items[i - 1].name))
-            *str_map_at(&list->by_name, list->items[i].name) = i + 1;
-}
-
 static void list_names(struct loader *loader, const struct named_list *list, const char *what) {
     enum {
         SHOWN = 8
@@ -202,6 +223,14 @@ static const struct mend_search *search_for(struct resolving *resolving, const s
     return search;
 }
 
+static bool is_variable(struct visit_place place, str name) {
+    const struct ir_any_list list = variables_of(place.schema, place.memory);
+    for (uint32_t i = 0; i < list.count; i++)
+        if (str_equal(((const struct ir_variable *)list.items)[i].name, name))
+            return true;
+    return false;
+}
+
 static void report_unknown(struct resolving *resolving, const struct named_list *list,
                            struct visit_place place, str name) {
     struct loader *loader = resolving->loader;
@@ -221,6 +250,10 @@ static void report_unknown(struct resolving *resolving, const struct named_list 
                   STR_ARG(schema_file_words(row->file, &loader->scratch)));
     if (diag_is_full(sink))
         return;
+    if (is_variable(place, name)) {
+        diag_help(sink, "a name cannot be computed; write an entry for each %s, with 'if'", row->child->name);
+        return;
+    }
     if (!search || !search->best) {
         list_names(loader, list, row->child->name);
         return;
@@ -316,6 +349,7 @@ void names_resolve(struct loader *loader, struct ir_scene *scene) {
     struct named_list things = collect(loader, scene, NULL);
     report_duplicates(loader, &things);
     number_names(&things);
+    report_copies_names(loader, &things);
     find_focus(&resolving, &things);
     visit_references(&SCHEMA_SCENE, scene, resolve, &resolving);
     arena_finish(&loader->scratch);

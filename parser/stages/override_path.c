@@ -40,16 +40,16 @@ static bool syntax(struct override *o, span where, const char *what) {
 
 // The first '=' outside brackets; the length of the text if there is none. *open: a bracket is not closed.
 static size_t find_equals(str text, bool *open) {
-    bool inside = false;
+    uint32_t depth = 0;
     for (size_t i = 0; i < text.len; i++) {
         if (text.ptr[i] == '[')
-            inside = true;
+            depth++;
         else if (text.ptr[i] == ']')
-            inside = false;
-        else if (text.ptr[i] == '=' && !inside)
+            depth -= depth > 0;
+        else if (text.ptr[i] == '=' && depth == 0)
             return i;
     }
-    *open = inside;
+    *open = depth > 0;
     return text.len;
 }
 
@@ -89,15 +89,27 @@ static bool add_bracket(struct override *o, size_t begin, size_t end) {
     return add_step(o, step);
 }
 
+// The bracket that closes the one at `open`, which may have a copy's name in it: [pawn[3]]; `end`: there is
+// none.
+static size_t closing(str text, size_t open, size_t end) {
+    uint32_t depth = 0;
+    for (size_t i = open; i < end; i++) {
+        depth += text.ptr[i] == '[';
+        depth -= text.ptr[i] == ']';
+        if (depth == 0)
+            return i;
+    }
+    return end;
+}
+
 static bool parse_steps(struct override *o, size_t end) {
     size_t i = 0;
     bool first = true;
     while (i < end || first) {
         if (i < end && o->text.ptr[i] == '[' && !first) {
-            const char *close = memchr(o->text.ptr + i, ']', end - i);
-            if (!close)
+            const size_t stop = closing(o->text, i, end);
+            if (stop == end)
                 return syntax(o, at(o, i, end), "']' is missing");
-            size_t stop = (size_t)(close - o->text.ptr);
             if (!add_bracket(o, i + 1, stop))
                 return false;
             i = stop + 1;

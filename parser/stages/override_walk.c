@@ -1,4 +1,5 @@
 #include "diag/codes/binding.h"
+#include "grammar/ir_copies.h"
 #include "parser/bind/say.h"
 #include "parser/bind/visit.h"
 #include "parser/stages/override.h"
@@ -118,6 +119,14 @@ static bool find_name(const struct override *o, const struct schema_row *row, vo
     const uint32_t found = str_map_find(&names->entries, name);
     *entry = found ? found - 1 : count;
     return found > 0;
+}
+
+// spheres[pawn][3], spheres[pawn[3]]
+static bool is_copy(struct override *o, const struct override_step *step) {
+    diag_add(sink(o), override_code(o, DIAG_SET_PATH), step->at, "a copy has no values of its own");
+    diag_help(sink(o), "%s the entry, or write an expression of its variables there",
+              o->is_track ? "move" : "set");
+    return false;
 }
 
 static bool unknown_name(struct override *o, const struct schema_row *row, void *list,
@@ -258,6 +267,9 @@ static bool find_entry(struct override *o, struct override_target *target, uint3
     }
     if (find_name(o, row, list, name, &target->entry))
         return true;
+    const str base = ir_copies_base(name);
+    if (base.len < name.len && find_name(o, row, list, base, &target->entry))
+        return is_copy(o, s);
     // A new parameter would be used by nothing.
     bool may_be_new = row->many == SCHEMA_NAMED_MAP && !row->aside && step + 1 == o->step_count &&
                       str_trim(str_slice(o->text, o->value_begin, o->text.len)).len;
@@ -362,6 +374,8 @@ static bool step_to_row(struct override *o, struct bind_frame *frame, uint32_t s
             return step_into_value(o, target, step);
         }
     }
+    if (row < 0 && s->kind == OVERRIDE_INDEX && schema_find_row(frame->schema, STR("for")) >= 0)
+        return is_copy(o, s);
     if (row < 0)
         return unknown_key(o, frame, s);
     target->row = (uint32_t)row;

@@ -36,12 +36,15 @@ const char *evaluation_suffix(const struct evaluation *e) {
     return suffix;
 }
 
-void evaluation_fault(struct evaluation *e, diag_code code, str text, span at,
+void evaluation_fault(struct evaluation *e, diag_code code, str text, span at, const char *suffix,
                       const struct expression_fault *fault) {
     if (e->is_quiet || diag_is_repeat(sink(e), code, at))
         return;
-    const struct diag_expression expression = {
-        .text = text, .at = at, .suffix = evaluation_suffix(e), .names = e->names, .name_count = e->count + e->variable_count};
+    const struct diag_expression expression = {.text = text,
+                                               .at = at,
+                                               .suffix = suffix,
+                                               .names = e->names,
+                                               .name_count = e->count + e->variable_count};
     diag_expression_fault(sink(e), e->loader->input->sources, code, &expression, fault);
 }
 
@@ -53,7 +56,7 @@ bool evaluation_compile(struct evaluation *e, diag_code code, str text, span at,
     // A parameter that was reported is known.
     const uint32_t number = str_map_find(&e->by_name, str_slice(text, fault.begin, fault.end));
     if (fault.problem != EXPRESSION_UNKNOWN_NUMBER || !number)
-        evaluation_fault(e, code, text, at, &fault);
+        evaluation_fault(e, code, text, at, e->suffix, &fault);
     return false;
 }
 
@@ -134,7 +137,9 @@ static bool read_value(struct evaluation *e, struct parameter *p) {
 // After all that its expression names.
 static void compile(struct evaluation *e, uint32_t index) {
     struct parameter *p = &e->items[index];
-    const bool good = !p->ir->head.poisoned && evaluation_name_fits(e, p->ir->name, place_of(e, p, "name"), "parameter") && read_value(e, p) && bounds_fit(e, p);
+    const bool good = !p->ir->head.poisoned &&
+                      evaluation_name_fits(e, p->ir->name, place_of(e, p, "name"), "parameter") &&
+                      read_value(e, p) && bounds_fit(e, p);
     p->state = good ? PARAMETER_DONE : PARAMETER_BAD;
     if (good)
         e->order[e->ordered++] = index;
@@ -224,7 +229,8 @@ struct evaluation *evaluation_begin(struct loader *loader, struct ir_scene *scen
         .names = ARENA_ARRAY(scratch, str, (size_t)parameters->count + IR_VARIABLES_MOST),
         .count = parameters->count,
         .order = ARENA_ARRAY(scratch, uint32_t, parameters->count),
-        .values = ARENA_ARRAY(scratch, double, heap_times(EXPRESSION_WIDTH, (size_t)parameters->count + IR_VARIABLES_MOST)),
+        .values = ARENA_ARRAY(scratch, double,
+                              heap_times(EXPRESSION_WIDTH, (size_t)parameters->count + IR_VARIABLES_MOST)),
         .suffix = ""};
     e->scope = (struct expression_scope){find, e};
     e->at = (struct expression_at){.decodes = scene->image.transfer == IR_TRANSFER_SRGB, .values = e->values};
@@ -256,8 +262,8 @@ static bool is_in_bounds(struct evaluation *e, const struct parameter *p, double
     number_format(value, digits);
     number_format(low ? p->ir->min : p->ir->max, bound);
     diag_add(sink(e), DIAG_PARAMETER_VALUE, place_of(e, p, "value"),
-             "parameter '%.*s' is %s%s; it must be at %s %s", STR_ARG(p->ir->name), digits, evaluation_suffix(e),
-             low ? "least" : "most", bound);
+             "parameter '%.*s' is %s%s; it must be at %s %s", STR_ARG(p->ir->name), digits,
+             evaluation_suffix(e), low ? "least" : "most", bound);
     diag_note(sink(e), place_of(e, p, low ? "min" : "max"), "the bound is here");
     return false;
 }
@@ -291,7 +297,7 @@ void evaluation_stop(struct evaluation *e) {
         const struct moving_formula *m = &e->moving.items[i];
         if (!m->entry) // else it is a copy, which has no formulas in the end
             ir_formula_drop(places->arena, places->formulas, bind_head(m->frame), m->formula->row,
-                        m->formula->slot, m->formula->component);
+                            m->formula->slot, m->formula->component);
     }
     for (uint32_t i = 0; i < e->count; i++) {
         const struct parameter *p = &e->items[i];
@@ -313,8 +319,8 @@ void evaluation_keep(const struct evaluation *e) {
     formulas->results = ARENA_ARRAY(e->loader->input->arena, struct ir_result, e->count);
     for (uint32_t i = 0; i < e->count; i++) {
         struct ir_result *result = &formulas->results[i];
-        *result =
-            (struct ir_result){.is_known = e->items[i].state == PARAMETER_DONE, .type = e->items[i].value.type};
+        *result = (struct ir_result){.is_known = e->items[i].state == PARAMETER_DONE,
+                                     .type = e->items[i].value.type};
         memcpy(result->value, e->values + (size_t)EXPRESSION_WIDTH * i, sizeof result->value);
     }
 }
@@ -341,6 +347,7 @@ static void mark_used(struct evaluation *e) {
 void evaluation_tell_unused(struct evaluation *e) {
     if (sink(e)->errors) // what uses it may be where the mistake is
         return;
+    copies_tell_unused(e);
     mark_used(e);
     for (uint32_t i = 0; i < e->count; i++) {
         const struct parameter *p = &e->items[i];

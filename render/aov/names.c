@@ -2,6 +2,7 @@
 
 #include "core/json_write.h"
 #include "core/str_map.h"
+#include "grammar/ir_copies.h"
 #include "load/where.h"
 #include "render/aov/matte.h"
 #include "scene/hits.h"
@@ -21,11 +22,15 @@ static const char *text(struct arena *arena, str s) {
 static struct aov_name object_of(const struct session *session, uint32_t body, struct arena *arena) {
     struct where where;
     where_find(session, body, 0, &where);
-    return (struct aov_name){.name = where.name.len
-                                         ? text(arena, where.name)
-                                         : arena_format(arena, "%s[%u]", where.list, where.index).ptr,
-                             .kind = where.kind,
-                             .at = where.at};
+    struct strbuf label;
+    strbuf_init(&label);
+    if (where.name.len)
+        strbuf_str(&label, where.name);
+    else
+        ir_copies_label(where.copies, where.row, where.index, &label);
+    const char *name = text(arena, strbuf_view(&label));
+    strbuf_finish(&label);
+    return (struct aov_name){.name = name, .kind = where.kind, .at = where.at};
 }
 
 // Names each material of a body, found by the first triangle that shows it.
