@@ -16,6 +16,7 @@ static uint32_t push_row(struct ir_origin *origin, struct ir_row_origin row) {
 
 void ir_origin_init(struct ir_origin *origin, struct arena *arena) {
     *origin = (struct ir_origin){.arena = arena, .formulas = ir_formulas_new(arena)};
+    *ARENA_PUSH(arena, &origin->comments) = SPAN_NONE;
     ir_origin_add(origin, (struct ir_element_origin){.at = SPAN_NONE});
     push_row(origin, (struct ir_row_origin){.row = 0});
 }
@@ -26,6 +27,13 @@ uint32_t ir_origin_add(struct ir_origin *origin, struct ir_element_origin elemen
                                               &origin->elements.capacity, sizeof *origin->elements.items);
     origin->elements.items[origin->elements.count++] = element;
     return origin->elements.count - 1;
+}
+
+uint32_t ir_origin_add_comments(struct ir_origin *origin, span comments) {
+    if (span_is_none(comments))
+        return 0;
+    *ARENA_PUSH(origin->arena, &origin->comments) = comments;
+    return origin->comments.count - 1;
 }
 
 void ir_origin_add_row(struct ir_origin *origin, uint32_t element, struct ir_row_origin row) {

@@ -17,18 +17,18 @@ struct ir_scene;
 struct schema_element;
 
 struct ir_row_origin {
-    uint32_t row;  // index in the element's schema
-    span key;      // the key, attribute name or child's tag name
-    span value;    // the value; a child element's whole extent
-    span comments; // from the first to the last comment before it; none: SPAN_NONE
-    uint32_t next; // in ir_origin.rows, in the order of the calls; 0: none
+    uint32_t row;      // index in the element's schema
+    span key;          // the key, attribute name or child's tag name
+    span value;        // the value; a child element's whole extent
+    uint32_t comments; // before it, in ir_origin.comments; 0: none
+    uint32_t next;     // in ir_origin.rows, in the order of the calls; 0: none
 };
 
 struct ir_element_origin {
-    span at;       // the whole element (an entry of a list: its value)
-    span label;    // what to point at: the name, the key or the tag name
-    span comments; // comments before an entry of a list
-    uint32_t rows; // the first in ir_origin.rows; 0: none
+    span at;           // the whole element (an entry of a list: its value)
+    span label;        // what to point at: the name, the key or the tag name
+    uint32_t comments; // before an entry of a list, in ir_origin.comments; 0: none
+    uint32_t rows;     // the first in ir_origin.rows; 0: none
 };
 
 struct ir_file_origin {
@@ -54,6 +54,10 @@ struct ir_origin {
         uint32_t count, capacity;
     } rows; // of all elements; [0] is none
     struct {
+        span *items;
+        uint32_t count, capacity;
+    } comments; // each from the first to the last comment before something; [0] is SPAN_NONE
+    struct {
         struct ir_file_origin *items;
         uint32_t count, capacity;
     } files; // [0] is the main scene's
@@ -70,6 +74,8 @@ struct ir_origin {
 void ir_origin_init(struct ir_origin *origin, struct arena *arena);
 // A new element; returns the id for ir_head.origin.
 uint32_t ir_origin_add(struct ir_origin *origin, struct ir_element_origin element);
+// For the two before: what ir_origin.comments has the place as; SPAN_NONE: 0.
+uint32_t ir_origin_add_comments(struct ir_origin *origin, span comments);
 // Adds the row's places, kept in the order of the calls; adding a row again replaces its places.
 void ir_origin_add_row(struct ir_origin *origin, uint32_t element, struct ir_row_origin row);
 // Forgets the row's places, if it has any.

@@ -8,12 +8,13 @@
 
 span print_comments_of_row(const struct print_places *places, const struct ir_head *head, uint32_t row) {
     const struct ir_row_origin *found = places->origin ? ir_origin_row(places->origin, head, row) : NULL;
-    return found ? found->comments : SPAN_NONE;
+    return found ? places->origin->comments.items[found->comments] : SPAN_NONE;
 }
 
 span print_comments_of_element(const struct print_places *places, const struct ir_head *head) {
     bool known = places->origin && head->origin && head->origin < places->origin->elements.count;
-    return known ? places->origin->elements.items[head->origin].comments : SPAN_NONE;
+    return known ? places->origin->comments.items[places->origin->elements.items[head->origin].comments]
+                 : SPAN_NONE;
 }
 
 span print_comments_of_list_row(const struct print_places *places, const struct schema_element *schema,

@@ -401,10 +401,11 @@ static span best_label(const struct bind_context *context, const struct bind_fra
 
 bool bind_element(struct bind_context *context, struct bind_frame *frame, tree_index node) {
     struct ir_head *head = bind_head(frame);
+    const uint32_t comments = ir_origin_add_comments(context->origin, frame->comments);
     head->origin =
         ir_origin_add(context->origin, (struct ir_element_origin){.at = tree_span(context->tree, node),
                                                                   .label = frame->label,
-                                                                  .comments = frame->comments});
+                                                                  .comments = comments});
     const struct schema_facts *facts = schema_index_facts(context->index, frame->schema);
     int bare = facts->short_row;
     if (is_bare(context, frame, bare, node)) {

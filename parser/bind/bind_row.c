@@ -33,11 +33,12 @@ struct bind_given bind_given_by(const struct bind_context *context, tree_index k
 
 void bind_note_row(struct bind_context *context, struct bind_frame *frame, uint32_t row,
                    struct bind_given given) {
+    const uint32_t comments = ir_origin_add_comments(context->origin, given.comments);
     ir_origin_add_row(context->origin, bind_head(frame)->origin,
                       (struct ir_row_origin){.row = row,
                                              .key = given.key_span,
                                              .value = tree_span(context->tree, given.value),
-                                             .comments = given.comments});
+                                             .comments = comments});
     frame->seen |= bind_bit(row);
 }
 

@@ -24,7 +24,7 @@ static struct copied_list *list_of(const struct evaluation *e, const struct sche
     return &e->copying->lists[number_of(row)];
 }
 
-static bool may_copy(const struct schema_row *row) {
+bool copies_may(const struct schema_row *row) {
     return row->kind == SCHEMA_LIST && schema_find_row(row->child, STR("for")) >= 0;
 }
 
@@ -49,7 +49,7 @@ static bool is_written(const struct copy_rows *rows, const void *entry) {
 bool copies_are_written(const struct ir_scene *scene) {
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
         const struct schema_row *row = &SCHEMA_SCENE.rows[i];
-        if (!may_copy(row))
+        if (!copies_may(row))
             continue;
         const struct copy_rows rows = rows_of(row->child);
         const struct ir_any_list list = ir_walk_list(row, scene);
@@ -393,6 +393,8 @@ static void fill(struct evaluation *e, const struct schema_row *row, struct copi
         visit_references(row->child, item, clone_in_place, e);
     }
     memcpy(schema_field(row, e->scene), &made, sizeof made);
+    if (made.count == 0) // an empty list is no list
+        e->scene->head.written &= ~bind_bit(number_of(row));
     copies_leave(e);
 }
 
@@ -448,7 +450,7 @@ void copies_make(struct evaluation *e) {
     e->formula_count = e->scene->formulas->count;
     e->formulas = ARENA_ARRAY(scratch, struct copy_formula, e->formula_count);
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++)
-        if (may_copy(&SCHEMA_SCENE.rows[i]))
+        if (copies_may(&SCHEMA_SCENE.rows[i]))
             make_list(e, &SCHEMA_SCENE.rows[i]);
     copies_leave(e);
     tell_sink(e);
@@ -460,7 +462,7 @@ void copies_make(struct evaluation *e) {
     e->loader->output->origin.copies = copies;
 }
 
-// ---- afterwards
+// ---- for tracks
 
 uint32_t copies_of(const struct evaluation *e, const struct schema_row *row, uint32_t entry,
                    uint32_t *count) {
@@ -474,91 +476,4 @@ uint32_t copies_of(const struct evaluation *e, const struct schema_row *row, uin
 
 struct ir_scene *copies_written(const struct evaluation *e) {
     return e->copying ? &e->copying->written : e->scene;
-}
-
-void copies_finish(struct evaluation *e) {
-    for (uint32_t i = 0; e->copying && i < SCHEMA_SCENE.row_count; i++) {
-        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
-        const struct copied_list *list = &e->copying->lists[i];
-        const struct ir_any_list items = ir_walk_list(row, e->scene);
-        for (uint32_t k = 0; list->made && k < items.count; k++)
-            if (list->made[k].places)
-                ir_formulas_forget(row->child, ir_walk_item(row, items, k));
-        for (uint32_t k = list->own; list->is_replaced && k < items.count; k++)
-            ir_formulas_forget(row->child, ir_walk_item(row, items, k));
-    }
-}
-
-static void tell_unused(const struct evaluation *e, const struct copy_entry *entry) {
-    for (uint32_t i = 0; i < entry->variable_count; i++) {
-        if (entry->used >> i & 1)
-            continue;
-        const str name = entry->variables[i].ir->name;
-        diag_add(sink(e), DIAG_VARIABLE_UNUSED,
-                 ir_place_value(&e->loader->output->origin, &entry->variables[i].ir->head, &SCHEMA_VARIABLE,
-                                "name"),
-                 "nothing uses '%.*s', so that its copies are in the same place", STR_ARG(name));
-        diag_help(sink(e), "use it in an expression of this entry, or remove it");
-    }
-}
-
-void copies_tell_unused(const struct evaluation *e) {
-    for (uint32_t i = 0; e->copying && i < SCHEMA_SCENE.row_count; i++) {
-        const struct copied_list *list = &e->copying->lists[i];
-        const uint32_t count =
-            list->entries ? ir_walk_list(&SCHEMA_SCENE.rows[i], &e->copying->written).count : 0;
-        for (uint32_t k = 0; k < count; k++)
-            if (list->entries[k] && list->entries[k]->is_good && list->entries[k]->count > 1)
-                tell_unused(e, list->entries[k]);
-    }
-}
-
-// ---- what cameras are focused on
-
-static const struct copy_entry *find_entry(const struct evaluation *e, str name) {
-    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
-        const struct copied_list *list = &e->copying->lists[i];
-        const uint32_t count =
-            list->entries ? ir_walk_list(&SCHEMA_SCENE.rows[i], &e->copying->written).count : 0;
-        for (uint32_t k = 0; k < count; k++)
-            if (list->entries[k] && str_equal(list->entries[k]->frame->name, name))
-                return list->entries[k];
-    }
-    return NULL;
-}
-
-static bool has_body(const struct evaluation *e, str name, str *similar) {
-    const str base = ir_copies_base(name);
-    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
-        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
-        const struct ir_any_list list = ir_walk_list(row, e->scene);
-        const int name_row = may_copy(row) ? visit_name_row(row->child) : -1;
-        for (uint32_t k = 0; name_row >= 0 && k < list.count; k++) {
-            const str other =
-                *(const str *)schema_field_const(&row->child->rows[name_row], ir_walk_item(row, list, k));
-            if (str_equal(other, name))
-                return true;
-            if (!similar->len && str_equal(ir_copies_base(other), base))
-                *similar = other;
-        }
-    }
-    return false;
-}
-
-void copies_check_focus(struct evaluation *e) {
-    const struct ir_cameras *cameras = &e->scene->cameras;
-    for (uint32_t i = 0; e->copying && i < cameras->count; i++) {
-        const str name = cameras->items[i].focus_on;
-        const struct copy_entry *entry = name.len ? find_entry(e, ir_copies_base(name)) : NULL;
-        str similar = STR("");
-        if (!entry || !entry->is_good || has_body(e, name, &similar))
-            continue;
-        diag_add(
-            sink(e), DIAG_UNKNOWN_BODY,
-            ir_place_value(&e->loader->output->origin, &cameras->items[i].head, &SCHEMA_CAMERA, "focus_on"),
-            "there is no body '%.*s': of '%.*s' there are %llu copies", STR_ARG(name),
-            STR_ARG(entry->frame->name), (unsigned long long)entry->count);
-        if (similar.len)
-            diag_help(sink(e), "one of them is '%.*s'", STR_ARG(similar));
-    }
 }

@@ -45,6 +45,7 @@ struct copied_list {
     // of materials and meshes, some of which are in place in an entry with variables
     uint32_t own;              // so many are as written
     bool *is_replaced;         // by clones
+    uint32_t *moved;           // after copies_finish: the new places of all
     struct copy_clone *clones; // they follow those of their own
     uint32_t clone_count, clone_capacity;
 };
@@ -58,6 +59,10 @@ struct copying {
     bool is_over;          // the limit on them, which was reported
     struct str_map cloned; // by what is cloned and the places that it depends on: 1 + index
 };
+
+// copies.c
+// Whether entries of a list can have copies.
+bool copies_may(const struct schema_row *list);
 
 // copies_variables.c
 // Reads the variables and the condition of an entry. false: one of them is wrong (reported, or known).

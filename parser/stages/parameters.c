@@ -77,7 +77,7 @@ bool evaluation_name_fits(const struct evaluation *e, str name, span at, const c
     for (size_t i = 0; i < mended.len; i++)
         if (mended.ptr[i] == '-')
             ((char *)mended.ptr)[i] = '_';
-    if (!expression_is_name(mended)) {
+    if (!expression_is_free(mended)) {
         diag_help(
             sink(e),
             "a name in expressions has letters, digits and '_', and is not a word such as 'yes' or 'on'");

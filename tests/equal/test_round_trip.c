@@ -97,25 +97,41 @@ static void test_generated_scenes(void **state) {
         check_scene(seed);
 }
 
-static void load_evaluated(struct loaded *loaded, const char *what, const struct strbuf *text,
-                           uint64_t hash[2]) {
-    load_whole_text(loaded, "scene.yaml", strbuf_view(text));
+static void load_evaluated(struct loaded *loaded, const char *path, const char *what,
+                           const struct strbuf *text, uint64_t hash[2]) {
+    load_whole_text(loaded, path, strbuf_view(text));
     if (loaded->sink.errors)
         print_error("%s", text->data);
     assert_no_errors(loaded, what);
     hash_scene(loaded->output.scene, hash);
 }
 
-// Without parameters and expressions a scene means the same.
+static void assert_same_scenes(const char *what, const struct ir_scene *scene,
+                               const struct ir_scene *expanded) {
+    struct strbuf a, b;
+    strbuf_init(&a), strbuf_init(&b);
+    ir_dump(scene, &a);
+    ir_dump(expanded, &b);
+    assert_same_text(what, &a, &b);
+    strbuf_finish(&a), strbuf_finish(&b);
+}
+
+static uint32_t count_entries(const struct ir_scene *scene) {
+    return scene->lights.count + scene->spheres.count + scene->rectangles.count + scene->boxes.count +
+           scene->cylinders.count + scene->cones.count + scene->models.count;
+}
+
+// Without parameters, expressions, `for` and `if` a scene means the same; so does its twin in the other
+// spelling.
 static void test_expanded_scenes(void **state) {
-    uint32_t computed = 0;
+    uint32_t computed = 0, copied = 0;
     (void)state;
     for (uint64_t seed = 0; seed < SCENE_COUNT; seed++) {
         const struct generate_options options = {.seed = seed, .renderable = true};
         struct arena arena;
-        struct loaded first, second;
+        struct loaded first, second, twin;
         struct strbuf text;
-        uint64_t before[2], after[2];
+        uint64_t before[2], after[2], other[2];
         char what[40];
         snprintf(what, sizeof what, "seed %llu", (unsigned long long)seed);
         arena_init(&arena, (size_t)1 << 26);
@@ -123,18 +139,26 @@ static void test_expanded_scenes(void **state) {
         struct ir_scene *scene = generate_scene(&options, &arena);
         computed += scene->parameters.count > 0;
         ir_write_yaml(scene, NULL, NULL, (struct ir_write_options){0}, &text);
-        load_evaluated(&first, what, &text, before);
+        load_evaluated(&first, "scene.yaml", what, &text, before);
+        copied += count_entries(scene) != count_entries(first.output.scene);
+        strbuf_clear(&text);
+        ir_write_xml(scene, NULL, NULL, (struct ir_write_options){0}, &text);
+        load_evaluated(&twin, "scene.xml", what, &text, other);
+        if (memcmp(before, other, sizeof before) != 0)
+            fail_msg("%s means something else in XML: %s", what, text.data);
         ir_formulas_expand(first.output.scene);
         strbuf_clear(&text);
         ir_write_yaml(first.output.scene, NULL, NULL, (struct ir_write_options){0}, &text);
-        load_evaluated(&second, what, &text, after);
-        if (memcmp(before, after, sizeof before) != 0 || strstr(text.data, "\nparameters:"))
-            fail_msg("%s, expanded, means something else: %s", what, text.data);
-        loaded_finish(&first), loaded_finish(&second);
+        load_evaluated(&second, "scene.yaml", what, &text, after);
+        assert_same_scenes(what, first.output.scene, second.output.scene);
+        if (strstr(text.data, "\nparameters:") || strstr(text.data, "for: {"))
+            fail_msg("%s is not written out: %s", what, text.data);
+        loaded_finish(&first), loaded_finish(&second), loaded_finish(&twin);
         strbuf_finish(&text);
         arena_finish(&arena);
     }
     assert_in_range(computed, SCENE_COUNT / 4, SCENE_COUNT);
+    assert_in_range(copied, SCENE_COUNT / 4, SCENE_COUNT);
 }
 
 // What the generator never writes is not tested by it.

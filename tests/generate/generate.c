@@ -1,6 +1,7 @@
 #include "tests/generate/generate.h"
 
 #include "grammar/ir.h"
+#include "grammar/ir_formula.h"
 #include "grammar/ir_walk.h"
 #include "tests/generate/generate_values.h"
 
@@ -36,8 +37,8 @@ static uint32_t count_named(const struct generator *g, const struct schema_row *
 
 // Whether the row can have a value at all: a file, a name to refer to.
 static bool is_possible(const struct generator *g, const struct schema_row *row) {
-    if (row->aside)
-        return false; // generate_formulas
+    if (row->aside || generate_is_of_copies(row))
+        return false; // generate_formulas, generate_copies
     if (row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_PATH)
         return paths_of(g, row)->count > 0;
     // Of meshes that can be rendered the materials are known; none has parts.
@@ -289,6 +290,8 @@ struct ir_scene *generate_scene(const struct generate_options *options, struct a
     schema_init(&SCHEMA_SCENE, g.scene);
     make_element(&g, &SCHEMA_SCENE, g.scene);
     generate_mend(&g, g.scene);
+    g.scene->formulas = ir_formulas_new(arena);
+    generate_copies(&g, g.scene);
     generate_formulas(&g, g.scene);
     return g.scene;
 }

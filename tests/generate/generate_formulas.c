@@ -55,13 +55,15 @@ static bool walk(struct generator *g, const struct schema_element *schema, void 
     for (uint32_t i = 0; i < schema->row_count; i++) {
         const struct schema_row *row = &schema->rows[i];
         const struct ir_any_list list = ir_walk_list(row, element);
-        if (!ir_walk_written(schema, i, element) || row->child == &SCHEMA_PARAMETER || row->plain)
+        if (!ir_walk_written(schema, i, element) || row->child == &SCHEMA_PARAMETER ||
+            row->child == &SCHEMA_VARIABLE || row->plain)
             continue;
         for (uint32_t k = 0; k < list.count; k++)
             any = walk(g, row->child, ir_walk_item(row, list, k)) || any;
         if (row->kind == SCHEMA_ELEMENT)
             any = walk(g, row->child, schema_field(row, element)) || any;
-        else if (generate_chance(g, 12))
+        else if (((const struct ir_head *)element)->formulas == 0 && !generate_is_of_copies(row) &&
+                 generate_chance(g, 12))
             any = compute_value(g, element, row,
                                 row->many == SCHEMA_FIXED ? (int)generate_below(g, row->fixed_count) : -1) ||
                   any;
@@ -96,7 +98,6 @@ static void add_parameter(struct generator *g, struct ir_scene *scene, str name,
 }
 
 void generate_formulas(struct generator *g, struct ir_scene *scene) {
-    scene->formulas = ir_formulas_new(g->arena);
     if (g->options->plain || generate_chance(g, 50) || !walk(g, &SCHEMA_SCENE, scene))
         return;
     // `one` by way of others, in any order.

@@ -47,6 +47,10 @@ str generate_text(struct generator *g);
 void generate_mend(struct generator *g, struct ir_scene *scene);
 // generate_formulas.c: has values of the scene computed, to be what they are.
 void generate_formulas(struct generator *g, struct ir_scene *scene);
+// generate_copies.c: has some bodies and lights copied; before generate_formulas.
+void generate_copies(struct generator *g, struct ir_scene *scene);
+// Whether a row says which copies there are.
+bool generate_is_of_copies(const struct schema_row *row);
 // generate_meshes.c: gives a mesh points and faces that make a body.
 void generate_mend_mesh(struct generator *g, struct ir_mesh *mesh);
 

@@ -133,7 +133,8 @@ static void written_bits_and_places(void **state) {
     assert_true(str_equal_cstr(source_text(&l.sources, value), "20"));
     const struct ir_row_origin *row =
         ir_origin_row(&l.output.origin, &s->head, (uint32_t)schema_find_row(&SCHEMA_SCENE, STR("image")));
-    assert_true(str_equal_cstr(source_text(&l.sources, row->comments), "# the picture"));
+    assert_true(str_equal_cstr(source_text(&l.sources, l.output.origin.comments.items[row->comments]),
+                               "# the picture"));
     loaded_finish(&l);
 }
 
