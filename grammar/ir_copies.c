@@ -19,12 +19,18 @@ const uint32_t *ir_copies_at(const struct ir_copies *copies, const struct schema
     return copy && copy->places ? copies->places + copy->places : NULL;
 }
 
-void ir_copies_label(const struct ir_copies *copies, const struct schema_row *list, uint32_t index,
+void ir_copies_index(const struct ir_copies *copies, const struct schema_row *list, uint32_t index,
                      struct strbuf *out) {
-    strbuf_format(out, "%s[%u]", schema_yaml_key(list), ir_copies_entry(copies, list, index));
     const uint32_t *places = ir_copies_at(copies, list, index);
+    strbuf_format(out, "[%u]", ir_copies_entry(copies, list, index));
     for (uint32_t i = 0; places && i < places[0]; i++)
         strbuf_format(out, "[%u]", places[1 + i]);
+}
+
+void ir_copies_label(const struct ir_copies *copies, const struct schema_row *list, uint32_t index,
+                     struct strbuf *out) {
+    strbuf_cstr(out, schema_yaml_key(list));
+    ir_copies_index(copies, list, index, out);
 }
 
 str ir_copies_base(str name) {

@@ -5,6 +5,7 @@
 #define GLINT_GRAMMAR_IR_COPIES_H
 
 #include "core/strbuf.h"
+#include "diag/source.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -19,14 +20,29 @@ struct ir_copy {
     uint32_t entry;  // in the list as it is written
     uint32_t places; // in ir_copies.places: how many, and each variable's; 0: the entry itself
 };
+// An entry that is written with 'for' or 'if'.
+struct ir_copied {
+    const struct schema_row *list; // of the scene
+    uint32_t entry;                // in the list as it is written
+    uint32_t count;                // of copies
+    str name;                      // empty: none
+    span at;
+};
 struct ir_copies {
     struct ir_copy **lists; // by row of the scene, as long as the scene's list; NULL: it is as written
     uint32_t *places;
+    struct {
+        struct ir_copied *items;
+        uint32_t count, capacity;
+    } entries;
 };
 
 // What an item of a list of the scene is called if it has no name: spheres[2], spheres[2][3]. `copies` may be
 // NULL.
 void ir_copies_label(const struct ir_copies *copies, const struct schema_row *list, uint32_t index,
+                     struct strbuf *out);
+// The same without the list: [2], [2][3].
+void ir_copies_index(const struct ir_copies *copies, const struct schema_row *list, uint32_t index,
                      struct strbuf *out);
 // The places of an item in the ranges of its variables, after the number of them; NULL: it is no copy.
 const uint32_t *ir_copies_at(const struct ir_copies *copies, const struct schema_row *list, uint32_t index);

@@ -271,8 +271,11 @@ void lint_coincident(struct lint *lint) {
     for (uint32_t i = 0; i < lint->meshes.count; i++)
         check_mesh(lint, lint->meshes.items[i]);
     const bool *repeats = find_repeats(lint);
-    struct lint_box_item *flat = ARENA_ARRAY(lint->arena, struct lint_box_item, lint->body_count);
     uint32_t count = 0;
+    for (uint32_t i = 0; i < lint->body_count; i++)
+        count += !repeats[i] && lint->bodies[i].is->triangle_count;
+    struct lint_box_item *flat = ARENA_ARRAY(lint->arena, struct lint_box_item, count);
+    count = 0;
     for (uint32_t i = 0; i < lint->body_count; i++) {
         const struct lint_body *body = &lint->bodies[i];
         if (!repeats[i] && body->is->triangle_count)

@@ -486,8 +486,11 @@ static bool count_box(void *context, const void *of) {
 }
 
 static void find_media(struct lint *lint, struct lint_box_tree *tree) {
-    struct lint_box_item *items = ARENA_ARRAY(lint->arena, struct lint_box_item, lint->body_count);
     uint32_t count = 0;
+    for (uint32_t i = 0; i < lint->body_count; i++)
+        count += scene_is_medium(lint->scene, lint->bodies[i].is);
+    struct lint_box_item *items = ARENA_ARRAY(lint->arena, struct lint_box_item, count);
+    count = 0;
     for (uint32_t i = 0; i < lint->body_count; i++)
         if (scene_is_medium(lint->scene, lint->bodies[i].is))
             items[count++] = (struct lint_box_item){lint->bodies[i].box, &lint->bodies[i]};
@@ -538,9 +541,12 @@ static void report(struct media *media, const struct overlap *first, uint32_t co
 
 void lint_media(struct lint *lint) {
     struct media media = {.lint = lint, .work_left = FACES_MAX};
-    media.around = ARENA_ARRAY(lint->arena, uint32_t, lint->body_count);
-    struct lint_box_item *items = ARENA_ARRAY(lint->arena, struct lint_box_item, lint->body_count);
     uint32_t count = 0;
+    media.around = ARENA_ARRAY(lint->arena, uint32_t, lint->body_count);
+    for (uint32_t i = 0; i < lint->body_count; i++)
+        count += is_medium(lint, &lint->bodies[i]);
+    struct lint_box_item *items = ARENA_ARRAY(lint->arena, struct lint_box_item, count);
+    count = 0;
     for (uint32_t i = 0; i < lint->body_count; i++)
         if (is_medium(lint, &lint->bodies[i])) {
             const int32_t priority = filling(lint, &lint->bodies[i])->priority;

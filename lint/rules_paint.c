@@ -96,7 +96,7 @@ static void add_spot(struct looking *l, const struct spot *s) {
 
 static void own_axes(const struct scene_body *body, struct spot *s) {
     const affine3 back = transform_inverse(body->object_to_world);
-    const double cells[3] = {body->cells.x, body->cells.y, body->cells.z};
+    const double cells[3] = {body->cells->scale.x, body->cells->scale.y, body->cells->scale.z};
     for (int k = 0; k < 3; k++)
         s->change[k] = vec3_mul(mat3_row(back.linear, k), cells[k]);
 }

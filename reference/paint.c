@@ -145,8 +145,9 @@ vec3 reference_checker_place(const struct scene_body *body, const struct surface
     case SCENE_MESH:
         for (int k = 0; k < 3; k++)
             corners[k] = vec3_mul(body->mesh->positions[body->mesh->triangles[s->triangle].corners[k]], b[k]);
-        return vec3_add(vec3_times(vec3_add(vec3_add(corners[0], corners[1]), corners[2]), body->cells),
-                        body->cells_offset);
+        return vec3_add(
+            vec3_times(vec3_add(vec3_add(corners[0], corners[1]), corners[2]), body->cells->scale),
+            body->cells->offset);
     }
     return arm;
 }

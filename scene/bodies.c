@@ -21,8 +21,11 @@ enum {
 
 // ---- bodies
 
+const struct scene_cells SCENE_CELLS_OWN = {{1, 1, 1}, {0, 0, 0}};
+
 struct building {
     struct scene *scene;
+    struct arena *arena;
     uint32_t *material; // the next place for a body's one material
 };
 
@@ -30,7 +33,7 @@ static struct scene_body *add(struct building *b, const struct schema_element *e
                               const struct ir_head *head, str name) {
     struct scene_body *body = &b->scene->bodies[b->scene->body_count++];
     *body = (struct scene_body){
-        .element = element, .index = index, .head = head, .name = name, .cells = {1, 1, 1}};
+        .element = element, .index = index, .head = head, .name = name, .cells = &SCENE_CELLS_OWN};
     return body;
 }
 
@@ -38,6 +41,12 @@ static void take_material(struct building *b, struct scene_body *body, const str
     *b->material = assets_material(b->scene->ir, ref);
     body->materials = b->material++;
     body->group_count = 1;
+}
+
+static void set_cells(struct building *b, struct scene_body *body, vec3 scale, vec3 offset) {
+    struct scene_cells *cells = ARENA_NEW(b->arena, struct scene_cells);
+    *cells = (struct scene_cells){scale, offset};
+    body->cells = cells;
 }
 
 static void take_mesh(struct scene_body *body, const struct mesh *mesh) {
@@ -73,7 +82,7 @@ static void add_box(struct building *b, uint32_t i) {
     const struct ir_box *ir = &b->scene->ir->boxes.items[i];
     struct scene_body *body = add(b, &SCHEMA_BOX, i, &ir->head, ir->name);
     body->shape = SCENE_MESH;
-    body->cells = vec3_mul(ir->size, 1 - SCENE_CELLS_WITHIN);
+    set_cells(b, body, vec3_mul(ir->size, 1 - SCENE_CELLS_WITHIN), (vec3){0, 0, 0});
     take_material(b, body, &ir->material);
     take_mesh(body, scene_box_mesh());
     scene_body_place(body, transform_of(ir->size, ir->rotation, ir->center), 0);
@@ -103,13 +112,13 @@ static void add_cone(struct building *b, uint32_t i) {
 }
 
 // A flat mesh has no inside: it shows the cells on one side.
-static void set_cells(struct scene_body *body, const struct mesh *mesh) {
+static void set_mesh_cells(struct building *b, struct scene_body *body, const struct mesh *mesh) {
     const vec3 size = vec3_sub(mesh->upper, mesh->lower);
     const double most = vec3_max_abs(size) * SCENE_CELLS_WITHIN;
-    body->cells = (vec3){1 - SCENE_CELLS_WITHIN, 1 - SCENE_CELLS_WITHIN, 1 - SCENE_CELLS_WITHIN};
-    body->cells_offset = vec3_mul(vec3_add(mesh->lower, mesh->upper), SCENE_CELLS_WITHIN / 2);
-    body->cells_offset = vec3_add(
-        body->cells_offset, (vec3){size.x > 0 ? 0 : most, size.y > 0 ? 0 : most, size.z > 0 ? 0 : most});
+    const double scale = 1 - SCENE_CELLS_WITHIN;
+    const vec3 offset = vec3_mul(vec3_add(mesh->lower, mesh->upper), SCENE_CELLS_WITHIN / 2);
+    set_cells(b, body, (vec3){scale, scale, scale},
+              vec3_add(offset, (vec3){size.x > 0 ? 0 : most, size.y > 0 ? 0 : most, size.z > 0 ? 0 : most}));
 }
 
 static void add_model(struct building *b, uint32_t i) {
@@ -123,7 +132,7 @@ static void add_model(struct building *b, uint32_t i) {
         body->materials = assets->models[i].group_material;
         take_mesh(body, assets->models[i].mesh);
         if (body->mesh->is_made)
-            set_cells(body, body->mesh);
+            set_mesh_cells(b, body, body->mesh);
     }
     scene_body_place(body, transform_of(ir->scale, ir->rotation, ir->translation), 0);
 }
@@ -153,7 +162,7 @@ void scene_build_bodies(struct scene *scene, struct arena *arena) {
     uint32_t total = 0;
     for (int i = 0; i < KIND_COUNT; i++)
         total += counts[i] = ir_walk_list(ir_walk_pool(KINDS[i].element), scene->ir).count;
-    struct building b = {scene, ARENA_ARRAY(arena, uint32_t, total)};
+    struct building b = {scene, arena, ARENA_ARRAY(arena, uint32_t, total)};
     scene->bodies = ARENA_ARRAY(arena, struct scene_body, total);
     for (int i = 0; i < KIND_COUNT; i++)
         for (uint32_t k = 0; k < counts[i]; k++)

@@ -36,6 +36,13 @@ enum scene_shape {
     SCENE_CONE, // whole or cut off, also with equal radii: a cylinder
 };
 
+// Where a checker counts its cells, from object space: of a box by the lengths of its edges, nearly. Most
+// bodies have SCENE_CELLS_OWN: 1 and 0.
+struct scene_cells {
+    vec3 scale, offset;
+};
+extern const struct scene_cells SCENE_CELLS_OWN;
+
 // In IR order (ir.h). Models whose mesh could not be loaded are bodies without triangles. What the tracer's
 // geometry depends on is compared by tracer/flatten/flatten_keep.c.
 struct scene_body {
@@ -51,9 +58,7 @@ struct scene_body {
     affine3 object_to_world;
     double radius;            // of a sphere; of a cone that at 'from'
     double radius_to, height; // of a cone
-    // Where a checker counts its cells, from object space: of a box by the lengths of its edges, nearly;
-    // else 1.
-    vec3 cells, cells_offset;
+    const struct scene_cells *cells;
     const struct mesh *mesh;   // NULL: another shape, or not loaded
     const uint32_t *materials; // by group: indices into scene.materials
     uint32_t group_count;      // 1 except for meshes

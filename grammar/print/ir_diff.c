@@ -1,6 +1,7 @@
 #include "grammar/print/ir_diff.h"
 
 #include "core/strbuf.h"
+#include "grammar/ir_copies.h"
 #include "grammar/ir_value.h"
 #include "grammar/ir_walk.h"
 #include "grammar/print/ir_align.h"
@@ -248,8 +249,15 @@ static str entry_path(const struct lists *l, bool is_b, uint32_t i) {
     str name = name_of(l->row->child, entry(l, is_b, i));
     if (l->row->many == SCHEMA_NAMED_MAP)
         return join_path(d, path, name);
-    return name.len ? arena_format(d->arena, "%.*s[%.*s]", STR_ARG(path), STR_ARG(name))
-                    : arena_format(d->arena, "%.*s[%u]", STR_ARG(path), i);
+    if (name.len)
+        return arena_format(d->arena, "%.*s[%.*s]", STR_ARG(path), STR_ARG(name));
+    const struct ir_origin *origin = is_b ? d->b->origin : d->a->origin;
+    struct strbuf label;
+    strbuf_init(&label);
+    ir_copies_index(origin ? origin->copies : NULL, l->row, i, &label);
+    path = arena_format(d->arena, "%.*s%.*s", STR_ARG(path), STR_ARG(strbuf_view(&label)));
+    strbuf_finish(&label);
+    return path;
 }
 
 static bool written_in_either(const struct schema_element *schema, uint32_t i, const void *a, const void *b) {

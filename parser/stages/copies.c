@@ -425,16 +425,22 @@ static void make_list(struct evaluation *e, const struct schema_row *row) {
     fill(e, row, list, written);
 }
 
-static void tell_sink(struct evaluation *e) {
+// What is said of them afterwards: in messages, once for all copies.
+static void list_entries(struct evaluation *e, struct ir_copies *copies) {
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
+        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
         const struct copied_list *list = &e->copying->lists[i];
-        const uint32_t count =
-            list->entries ? ir_walk_list(&SCHEMA_SCENE.rows[i], &e->copying->written).count : 0;
-        for (uint32_t k = 0; k < count; k++)
-            if (list->entries[k]) {
-                const struct ir_head *head = ir_walk_head(list->entries[k]->memory);
-                diag_repeats(sink(e), e->loader->output->origin.elements.items[head->origin].at);
-            }
+        const uint32_t count = list->entries ? ir_walk_list(row, &e->copying->written).count : 0;
+        for (uint32_t k = 0; k < count; k++) {
+            const struct copy_entry *entry = list->entries[k];
+            if (!entry)
+                continue;
+            const struct ir_head *head = ir_walk_head(entry->memory);
+            diag_repeats(sink(e), e->loader->output->origin.elements.items[head->origin].at);
+            *ARENA_PUSH(e->loader->input->arena, &copies->entries) =
+                (struct ir_copied){row, k, (uint32_t)entry->count, entry->frame->name,
+                                   ir_place_label(&e->loader->output->origin, head)};
+        }
     }
 }
 
@@ -453,8 +459,8 @@ void copies_make(struct evaluation *e) {
         if (copies_may(&SCHEMA_SCENE.rows[i]))
             make_list(e, &SCHEMA_SCENE.rows[i]);
     copies_leave(e);
-    tell_sink(e);
     struct ir_copies *copies = ARENA_NEW(e->loader->input->arena, struct ir_copies);
+    list_entries(e, copies);
     copies->lists = ARENA_ARRAY(e->loader->input->arena, struct ir_copy *, SCHEMA_SCENE.row_count);
     copies->places = e->copying->places;
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++)

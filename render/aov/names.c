@@ -19,13 +19,21 @@ static const char *text(struct arena *arena, str s) {
     return arena_format(arena, "%.*s", STR_ARG(s)).ptr;
 }
 
+enum {
+    NAMED_COPIES_MOST = 100000 // bodies of a scene: beyond it, copies of one entry share its name
+};
+
 static struct aov_name object_of(const struct session *session, uint32_t body, struct arena *arena) {
     struct where where;
     where_find(session, body, 0, &where);
     struct strbuf label;
     strbuf_init(&label);
+    const bool shares = session->resolved.body_count > NAMED_COPIES_MOST &&
+                        ir_copies_at(where.copies, where.row, where.index);
     if (where.name.len)
-        strbuf_str(&label, where.name);
+        strbuf_str(&label, shares ? ir_copies_base(where.name) : where.name);
+    else if (shares)
+        strbuf_format(&label, "%s[%u]", where.list, ir_copies_entry(where.copies, where.row, where.index));
     else
         ir_copies_label(where.copies, where.row, where.index, &label);
     const char *name = text(arena, strbuf_view(&label));

@@ -34,12 +34,12 @@ static void put_map(const struct flattening *f, const struct scene_body *body, s
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++)
             own.linear.m[i][k] /= f->factor;
-    record->row_x = vec3_mul(mat3_row(own.linear, 0), body->cells.x);
-    record->row_y = vec3_mul(mat3_row(own.linear, 1), body->cells.y);
-    record->row_z = vec3_mul(mat3_row(own.linear, 2), body->cells.z);
-    record->offset_x = own.offset.x * body->cells.x + body->cells_offset.x;
-    record->offset_y = own.offset.y * body->cells.y + body->cells_offset.y;
-    record->offset_z = own.offset.z * body->cells.z + body->cells_offset.z;
+    record->row_x = vec3_mul(mat3_row(own.linear, 0), body->cells->scale.x);
+    record->row_y = vec3_mul(mat3_row(own.linear, 1), body->cells->scale.y);
+    record->row_z = vec3_mul(mat3_row(own.linear, 2), body->cells->scale.z);
+    record->offset_x = own.offset.x * body->cells->scale.x + body->cells->offset.x;
+    record->offset_y = own.offset.y * body->cells->scale.y + body->cells->offset.y;
+    record->offset_z = own.offset.z * body->cells->scale.z + body->cells->offset.z;
 }
 
 static void put_edge_lengths(const struct scene_body *body, struct gpu_body *record) {

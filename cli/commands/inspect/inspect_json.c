@@ -1,6 +1,7 @@
 // The report on a scene, for programs: docs/schema/inspect-scene-report.schema.json.
 #include "cli/commands/inspect/inspect.h"
 #include "core/json_write.h"
+#include "grammar/ir_copies.h"
 #include "grammar/ir_formula.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
@@ -83,6 +84,20 @@ static void put_parameters(struct json_writer *w, const struct ir_scene *scene) 
         put_bound(w, p, "min", p->min);
         put_bound(w, p, "max", p->max);
         json_write_text(w, "description", p->description);
+        json_close_object(w);
+    }
+    json_close_list(w);
+}
+
+static void put_copies(struct json_writer *w, const struct ir_copies *copies) {
+    json_open_list(w, "copies");
+    for (uint32_t i = 0; copies && i < copies->entries.count; i++) {
+        const struct ir_copied *entry = &copies->entries.items[i];
+        json_open_object(w, NULL);
+        json_write_text(w, "list", str_from(schema_yaml_key(entry->list)));
+        json_write_integer(w, "index", entry->entry);
+        json_write_text(w, "name", entry->name);
+        json_write_integer(w, "count", entry->count);
         json_close_object(w);
     }
     json_close_list(w);
@@ -220,6 +235,7 @@ void inspect_scene_json(const struct inspected_scene *scene, struct strbuf *out)
     put_image(&w, session);
     put_counts(&w, session);
     put_parameters(&w, session->scene);
+    put_copies(&w, session->origin.copies);
     put_bounds(&w, session);
     put_models(&w, session);
     put_precision(&w, scene);

@@ -2,6 +2,7 @@
 #include "cli/commands/inspect/inspect.h"
 #include "core/heap.h"
 #include "core/number.h"
+#include "grammar/ir_copies.h"
 #include "grammar/ir_formula.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
@@ -67,6 +68,25 @@ static void parameters(struct strbuf *out, const struct ir_scene *scene) {
             strbuf_format(out, ": %.*s", STR_ARG(p->description));
         strbuf_char(out, '\n');
         strbuf_finish(&value);
+    }
+}
+
+static void copies(struct strbuf *out, const struct session *s) {
+    const struct ir_copies *c = s->origin.copies;
+    if (c)
+        strbuf_cstr(out, "copies\n");
+    for (uint32_t i = 0; c && i < c->entries.count; i++) {
+        const struct ir_copied *entry = &c->entries.items[i];
+        struct strbuf label;
+        strbuf_init(&label);
+        if (entry->name.len)
+            strbuf_format(&label, "%s '%.*s'", entry->list->child->name, STR_ARG(entry->name));
+        else
+            strbuf_format(&label, "%s[%u]", schema_yaml_key(entry->list), entry->entry);
+        strbuf_format(out, "  %-17.*s%u", STR_ARG(strbuf_view(&label)), entry->count);
+        const struct source_place place = source_locate(&s->sources, entry->at);
+        strbuf_format(out, " (%.*s:%u:%u)\n", STR_ARG(place.path), place.line, place.column);
+        strbuf_finish(&label);
     }
 }
 
@@ -213,6 +233,7 @@ static void buffers(struct strbuf *out, const struct flat_scene *flat) {
 void inspect_scene_text(const struct inspected_scene *scene, struct strbuf *out) {
     counts(out, scene->session);
     parameters(out, scene->session->scene);
+    copies(out, scene->session);
     bounds(out, scene->session);
     meshes(out, scene->session);
     precision_words(scene->session, &scene->precision, out);
