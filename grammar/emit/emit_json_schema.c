@@ -113,8 +113,8 @@ static json_t *text_schema(const struct schema_row *row) {
                          row->counted ? NAME_PATTERN EMIT_PLACES_PATTERN "$" : NAME_PATTERN "$");
     if (text == SCHEMA_TEXT_LIST) {
         json_t *one = json_pack("{s:[s, s], s:i}", "type", "number", "string", "minLength", 1);
-        return json_pack("{s:s, s:{s:[O, {s:s, s:o, s:i, s:i}]}, s:i}", "type", "array", "items", "anyOf", one,
-                         "type", "array", "items", one, "minItems", 3, "maxItems", 3, "minItems", 1);
+        return json_pack("{s:s, s:{s:[O, {s:s, s:o, s:i, s:i}]}, s:i}", "type", "array", "items", "anyOf",
+                         one, "type", "array", "items", one, "minItems", 3, "maxItems", 3, "minItems", 1);
     }
     if (text == SCHEMA_TEXT_VALUES) {
         json_t *one = json_pack("{s:[s, s, s], s:i}", "type", "number", "boolean", "string", "minLength", 1);
@@ -150,8 +150,8 @@ static json_t *list_schema(const struct schema_row *row) {
     if (row->many == SCHEMA_SEQUENCE)
         return json_pack("{s:[s, s], s:o}", "type", "array", "null", "items", item_schema(row->child));
     const struct schema_row *key = &row->child->rows[schema_key_row(row->child)];
-    return json_pack("{s:[s, s], s:o, s:o}", "type", "object", "null", "propertyNames",
-                     text_schema(key), "additionalProperties", item_schema(row->child));
+    return json_pack("{s:[s, s], s:o, s:o}", "type", "object", "null", "propertyNames", text_schema(key),
+                     "additionalProperties", item_schema(row->child));
 }
 
 static json_t *value_schema(const struct schema_row *row) {

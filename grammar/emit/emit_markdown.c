@@ -123,17 +123,23 @@ static bool has_aside(const struct schema_element *schema) {
 }
 
 static void put_element(struct strbuf *out, const struct schema_element *schema, struct strbuf *scratch) {
-    int only = schema_short_row(schema);
+    int only = schema_short_row(schema), list = schema_list_row(schema);
     strbuf_format(out, "\n## %s\n\n%s\n\n", schema->name, schema->doc);
     if (only >= 0)
-        strbuf_format(out, "If it has only `%s`, the value of `%s` can be written instead.\n\n",
+        strbuf_format(out, "If it has only `%s`, the value of `%s` can be written instead.",
                       schema->rows[only].name, schema->rows[only].name);
+    if (list >= 0 && list != only)
+        strbuf_format(out, " So can the list of `%s`, in YAML.", schema->rows[list].name);
+    if (only >= 0)
+        strbuf_cstr(out, "\n\n");
     put_choices(out, schema);
     strbuf_cstr(out, "| attribute | YAML | XML | value | default | meaning |\n|---|---|---|---|---|---|\n");
     for (uint32_t i = 0; i < schema->row_count; i++)
         put_row(out, schema, i, scratch);
-    // No row says what its example is used for.
-    const char *mark = has_aside(schema) ? "<!-- test: finds W205 -->\n" : "";
+    // Nothing uses what these examples name.
+    const char *mark = has_aside(schema)            ? "<!-- test: finds W205 -->\n"
+                       : schema == &SCHEMA_VARIABLE ? "<!-- test: finds W207 -->\n"
+                                                    : "";
     strbuf_format(out, "\n%s```yaml\n", mark);
     emit_yaml_example(schema, out);
     strbuf_format(out, "```\n\n%s```xml\n", mark);

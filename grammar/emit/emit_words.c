@@ -4,6 +4,8 @@
 #include "grammar/print/ir_print.h"
 #include "grammar/print/ir_print_row.h"
 
+#include <string.h>
+
 enum {
     EXAMPLE_BYTES = 16 << 20
 };
@@ -141,11 +143,27 @@ static void emit_sample(const struct schema_element *schema, uint32_t i, print_r
     arena_finish(&arena);
 }
 
+// A truth that is computed in the example.
+static bool is_computed(const struct schema_row *row) {
+    return row->kind == SCHEMA_BOOLEAN && row->example && strcmp(row->example, "true") != 0 &&
+           strcmp(row->example, "false") != 0;
+}
+
 void emit_yaml_sample(const struct schema_element *schema, uint32_t i, struct strbuf *out) {
+    const struct schema_row *row = &schema->rows[i];
+    if (is_computed(row)) {
+        strbuf_format(out, "%s: %s", row->name, row->example);
+        return;
+    }
     emit_sample(schema, i, print_yaml_row, out);
 }
 
 void emit_xml_sample(const struct schema_element *schema, uint32_t i, struct strbuf *out) {
+    const struct schema_row *row = &schema->rows[i];
+    if (is_computed(row)) {
+        strbuf_format(out, "%s=\"%s\"", row->name, row->example);
+        return;
+    }
     emit_sample(schema, i, print_xml_row, out);
 }
 

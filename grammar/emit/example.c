@@ -122,6 +122,15 @@ static int find_path(const struct schema_element *from, const struct schema_elem
     return -1;
 }
 
+// Whether an element on the way must have the row: it is required, or the first of which one is.
+static bool is_needed(const struct schema_element *schema, uint32_t i, uint32_t on_path) {
+    const struct schema_row *row = &schema->rows[i];
+    const bool is_first =
+        row->choice && !is_alternative(schema, i) && row->choice != schema->rows[on_path].choice;
+    return row->required || row->key ||
+           (is_first && schema->choices[row->choice - 1].rule == SCHEMA_CHOICE_EXACTLY_ONE);
+}
+
 static void fill_path(const struct schema_element *schema, void *element, const uint32_t *path, int left,
                       struct arena *arena) {
     if (left == 0) {
@@ -131,8 +140,10 @@ static void fill_path(const struct schema_element *schema, void *element, const 
     const struct schema_row *row = &schema->rows[*path];
     for (uint32_t i = 0; i < schema->row_count; i++) {
         bool is_root = schema == &SCHEMA_SCENE;
-        if ((schema->rows[i].required || schema->rows[i].key) && i != *path && !is_root)
-            example_row(&schema->rows[i], i, element, arena);
+        if (!is_needed(schema, i, *path) || i == *path || is_root)
+            continue;
+        example_row(&schema->rows[i], i, element, arena);
+        mark(schema, i, element);
     }
     if (row->kind == SCHEMA_LIST && row->example) {
         example_row(row, *path, element, arena);

@@ -22,7 +22,7 @@ expect "copies are listed" 0 "^  sphere 'pawn'    4 .board.yaml:8:11.$" - "$glin
 expect "those without a name too" 0 '^  boxes.0.         6 ' - "$glint" inspect board.yaml
 expect "counted in the lists" 0 '^spheres *5$' - "$glint" inspect board.yaml
 expect "as JSON" 0 '"count": 4' - "$glint" inspect board.yaml --format json
-expect "another count" 0 "^  sphere 'pawn'    7 " - "$glint" inspect board.yaml --set 'spheres[pawn].for.i=4' --set 'spheres[pawn].if=i > 0 or row == 1'
+expect "another count" 0 "^  sphere 'pawn'    7 " '' "$glint" inspect board.yaml --set 'spheres[pawn].for.i=4' --set 'spheres[pawn].if=i > 0 or row == 1'
 expect "by a parameter" 0 "^  sphere 'pawn'    8 " - "$glint" inspect board.yaml --set parameters.size=5
 expect "none" 0 "^  sphere 'pawn'    0 " - "$glint" inspect board.yaml --set parameters.size=0
 expect "a copy has no values" 1 - 'a copy has no values of its own' "$glint" check board.yaml --set 'spheres[pawn][1][0].radius=1'
