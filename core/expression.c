@@ -221,7 +221,11 @@ static bool name(struct scan *s, struct part *out) {
     }
     if (own_word(s, word, begin, out, &good))
         return good;
-    *s->fault = (struct expression_fault){.problem = EXPRESSION_UNKNOWN_NUMBER, .begin = begin, .end = end};
+    if ((str_equal_cstr(word, "Math") || str_equal_cstr(word, "math")) && take(s, '.'))
+        return fail_with(s, begin, s->at, "functions belong to nothing", "write the function alone: sqrt(2)",
+                         "");
+    *s->fault = (struct expression_fault){
+        .problem = EXPRESSION_UNKNOWN_NUMBER, .begin = begin, .end = end, .help = expression_foreign(word)};
     return false;
 }
 
@@ -254,6 +258,8 @@ static bool atom(struct scan *s, struct part *out) {
         return name(s, out);
     if (c == '+')
         return fail_with(s, begin, begin + 1, "a number has no '+' before it", "leave the '+' out", "");
+    if (c == '$')
+        return fail_with(s, begin, begin + 1, "a name stands alone, without '$'", "write the name", "");
     if (c == '!')
         return fail_with(s, begin, begin + 1, "'!' is written 'not'", "write not", "not ");
     if (!take(s, '('))
@@ -553,12 +559,26 @@ static bool conditional(struct scan *s, struct part *out) {
     return true;
 }
 
+// Something follows that is no operator here, though it may be one elsewhere.
+static bool no_operator(struct scan *s) {
+    const str word = peek_name(s);
+    const bool is_product = word.len && s->at > 0 && char_is_digit(s->text.ptr[s->at - 1]);
+    if (str_equal_cstr(word, "mod"))
+        return fail_with(s, s->at, s->at + 3, "the remainder is written with %", "write a % b", "%");
+    if (str_equal_cstr(word, "div"))
+        return fail_with(s, s->at, s->at + 3, "no operator is called 'div'", "write floor(a/b)", NULL);
+    if (is_product)
+        return fail_with(s, s->at, s->at + word.len, "an operator is missing before this",
+                         "a product has a '*'", NULL);
+    return expression_fail(s->fault, s->at, s->text.len, "an operator is missing before this");
+}
+
 static bool compile(struct scan *s, struct expression *expression) {
     struct part all;
     if (!conditional(s, &all))
         return false;
     if (next(s) != '\0' || s->at < s->text.len)
-        return expression_fail(s->fault, s->at, s->text.len, "an operator is missing before this");
+        return no_operator(s);
     *expression = (struct expression){s->steps, s->count, all.type, s->moves, s->cost};
     return true;
 }

@@ -69,7 +69,7 @@ struct expression_function {
 };
 extern const struct expression_function expression_functions[];
 int expression_find_function(str name); // -1: none
-// What to write instead of a function of another language; NULL: it is not one.
+// What to write instead of a word of another language; NULL: it is not one.
 const char *expression_foreign(str function);
 
 // Bytes of the name that begins at `at`; 0: none does.

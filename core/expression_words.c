@@ -68,6 +68,11 @@ static const struct {
     {"degrees", "angles are in degrees: write the angle itself"},
     {"rgb", "a colour is written [r, g, b]"},
     {"vec3", "a vector is written [x, y, z]"},
+    {"range", "a count alone has all values below it: i: 3 is 0, 1 and 2"},
+    {"yes", "write true"},
+    {"on", "write true"},
+    {"no", "write false"},
+    {"off", "write false"},
 };
 
 const char *expression_foreign(str function) {

@@ -251,6 +251,13 @@ static const struct {
     {"open ? 1 : 2", 5, 6, NULL},
     {"+1", 0, 1, ""},
     {"else", 0, 4, NULL},
+    {"n mod 2", 2, 5, "%"},
+    {"n div 2", 2, 5, NULL},
+    {"2n", 1, 2, NULL},
+    {"Math.sqrt(n)", 0, 5, ""},
+    {"$n", 0, 1, ""},
+    {"range(3)", 0, 5, NULL},
+    {"yes", 0, 3, NULL},
 };
 
 static void faults(void **state) {
