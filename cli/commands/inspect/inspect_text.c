@@ -71,7 +71,7 @@ static void parameters(struct strbuf *out, const struct ir_scene *scene) {
     }
 }
 
-static void copies(struct strbuf *out, const struct session *s) {
+static void copies(struct strbuf *out, struct session *s) {
     const struct ir_copies *c = s->origin.copies;
     if (c)
         strbuf_cstr(out, "copies\n");
