@@ -570,6 +570,10 @@ static bool no_operator(struct scan *s) {
     if (is_product)
         return fail_with(s, s->at, s->at + word.len, "an operator is missing before this",
                          "a product has a '*'", NULL);
+    if (s->at < s->text.len && char_is_digit(s->text.ptr[s->at]))
+        return fail_with(s, s->at, s->text.len, "an operator is missing before this",
+                         "values have commas between them, and a vector has brackets around it: [0, 0, 1]",
+                         NULL);
     return expression_fail(s->fault, s->at, s->text.len, "an operator is missing before this");
 }
 

@@ -44,7 +44,7 @@ void ir_copies_label(const struct ir_copies *copies, const struct schema_row *li
 // The same without the list: [2], [2][3].
 void ir_copies_index(const struct ir_copies *copies, const struct schema_row *list, uint32_t index,
                      struct strbuf *out);
-// The places of an item in the ranges of its variables, after the number of them; NULL: it is no copy.
+// The places of an item in the ranges of its variables, after the number of them; NULL: it is not a copy.
 const uint32_t *ir_copies_at(const struct ir_copies *copies, const struct schema_row *list, uint32_t index);
 // The entry in the list as it is written that an item of a scene's list comes from. Any other row: `index`.
 uint32_t ir_copies_entry(const struct ir_copies *copies, const struct schema_row *list, uint32_t index);

@@ -71,11 +71,7 @@ static void put_yaml_escape(struct strbuf *out, uint32_t c) {
         strbuf_format(out, "\\U%08X", (unsigned)c);
 }
 
-void print_yaml_text(struct strbuf *out, str text, bool in_flow) {
-    if (is_plain(text, in_flow)) {
-        strbuf_str(out, text);
-        return;
-    }
+static void put_quoted(struct strbuf *out, str text) {
     strbuf_char(out, '"');
     for (size_t at = 0; at < text.len;) {
         size_t n = utf8_sequence_length(text, at);
@@ -87,6 +83,33 @@ void print_yaml_text(struct strbuf *out, str text, bool in_flow) {
         at += n ? n : 1;
     }
     strbuf_char(out, '"');
+}
+
+// YAML reads what begins so, and what has one of the other marks in it, as something else.
+static bool is_plain_expression(str text) {
+    const char first = text.len ? text.ptr[0] : ' ', second = text.len > 1 ? text.ptr[1] : ' ';
+    const bool begins = char_is_letter(first) || char_is_digit(first) || strchr("_(.", first) ||
+                        (first == '-' && second != ' ' && second != '-') || (unsigned char)first >= 0x80;
+    if (!begins || text.ptr[text.len - 1] == ' ' || is_reserved(text) || has_odd(text, ""))
+        return false;
+    for (size_t i = 0; i < text.len; i++)
+        if (strchr(",[]{}#:\"'\\&", text.ptr[i]))
+            return false;
+    return true;
+}
+
+void print_yaml_expression(struct strbuf *out, str text) {
+    if (is_plain_expression(text))
+        strbuf_str(out, text);
+    else
+        put_quoted(out, text);
+}
+
+void print_yaml_text(struct strbuf *out, str text, bool in_flow) {
+    if (is_plain(text, in_flow))
+        strbuf_str(out, text);
+    else
+        put_quoted(out, text);
 }
 
 bool print_yaml_is_literal(str text) {

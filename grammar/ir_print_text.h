@@ -11,6 +11,8 @@ struct schema_row;
 // Text as YAML: plain if every reader of YAML 1.1 and 1.2 reads it as the same text, else in double
 // quotes, on one line. `in_flow`: between brackets or as a key, where fewer characters may be plain.
 void print_yaml_text(struct strbuf *out, str text, bool in_flow);
+// An expression, in quotes only where YAML would end it or read it as something else.
+void print_yaml_expression(struct strbuf *out, str text);
 // Whether a literal block ('|') shows the text as it is: several lines, nothing that needs an escape.
 bool print_yaml_is_literal(str text);
 // The block's header ("|" or "|-") and its lines, indented; ends with a line end.

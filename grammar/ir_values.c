@@ -8,7 +8,8 @@ bool ir_values_next(str *rest, str *value) {
         return false;
     size_t end = 0;
     for (int depth = 0; end < rest->len && (depth > 0 || rest->ptr[end] != ','); end++)
-        depth += (rest->ptr[end] == '(' || rest->ptr[end] == '[') - (rest->ptr[end] == ')' || rest->ptr[end] == ']');
+        depth += (rest->ptr[end] == '(' || rest->ptr[end] == '[') -
+                 (rest->ptr[end] == ')' || rest->ptr[end] == ']');
     *value = str_trim(str_slice(*rest, 0, end));
     *rest = end < rest->len ? str_slice(*rest, end + 1, rest->len) : (str){NULL, 0};
     return true;
@@ -65,7 +66,7 @@ static void put_list(struct strbuf *out, str text, bool several, bool json) {
         else if (json)
             print_json_text(out, value);
         else
-            print_yaml_text(out, value, true);
+            print_yaml_expression(out, value);
     }
     if (several)
         strbuf_char(out, ']');

@@ -22,7 +22,7 @@ const struct schema_element SCHEMA_PARAMETER = {
 static const struct schema_row variable_rows[] = {
     {.name = "name", FIELD(ir_variable, name), .example = "i", .text = SCHEMA_TEXT_NAME, .key = true, .required = true,
      .also = "id variable var", .doc = "Name in the expressions of the entry: letters, digits and '_'."},
-    {.name = "count", FIELD(ir_variable, count), .example = "5", .range = SCHEMA_RANGE_COPIES, .standard = "0", .short_form = true,
+    {.name = "count", FIELD(ir_variable, count), .example = "5", .range = SCHEMA_RANGE_COPIES, .short_form = true,
      .choice = 1, .alternative = IR_VARIABLE_COUNT, .also = "times number n range to end",
      .doc = "How many values it has: 0, 1, 2 and so on, up to one less than this."},
     {.name = "values", FIELD(ir_variable, values), .example = "-4, 3", .text = SCHEMA_TEXT_LIST, .short_form = true,

@@ -9,6 +9,7 @@
 #include "scene/media.h"
 
 #include "grammar/ir.h"
+#include "grammar/ir_copies.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -89,7 +90,10 @@ static void report_repeat(struct lint *lint, const struct lint_body *body, const
     }
     diag_add(lint->sink, DIAG_COINCIDENT, at, "%.*s is at exactly the same place as another one",
              STR_ARG(words));
-    diag_note(lint->sink, there, "this is the other one");
+    if (ir_copies_at(lint->origin->copies, ir_walk_pool(other->is->element), other->is->index))
+        diag_note(lint->sink, there, "this is the other one: %.*s", STR_ARG(lint_words_other(lint, other)));
+    else
+        diag_note(lint->sink, there, "this is the other one");
     diag_help(lint->sink, "remove one of the two, or move it");
 }
 

@@ -419,7 +419,40 @@ static void put_other_meanings(struct explainer *e, str what) {
     strbuf_finish(&text);
 }
 
-// An attribute without its element: explained if only one element has it, else the elements are listed.
+// The first of the elements that have an attribute, if it is the same in all of them; else NULL. Appends
+// their names.
+static const struct schema_element *find_alike(str what, int *row, struct strbuf *names) {
+    const struct schema_element *first = NULL;
+    for (const struct schema_element *const *s = schema_elements; *s; s++) {
+        const int here = schema_find_row(*s, what);
+        if (here < 0)
+            continue;
+        if (first && strcmp((*s)->rows[here].doc, first->rows[*row].doc) != 0)
+            return NULL;
+        strbuf_format(names, "%s%s", names->len ? ", " : "", (*s)->name);
+        first = first ? first : *s;
+        *row = *s == first ? here : *row;
+    }
+    return first;
+}
+
+static bool explain_alike(struct explainer *e, str what) {
+    int row = -1;
+    struct strbuf names, text;
+    strbuf_init(&names), strbuf_init(&text);
+    const struct schema_element *first = find_alike(what, &row, &names);
+    if (first) {
+        explain_attribute(e, first, (uint32_t)row);
+        strbuf_format(&text, "It is the same in all that have it: %.*s.", STR_ARG(strbuf_view(&names)));
+        strbuf_char(e->out, '\n');
+        paragraph_of(e, 2, &text);
+    }
+    strbuf_finish(&names), strbuf_finish(&text);
+    return first != NULL;
+}
+
+// An attribute without its element: explained if only one element has it or it is the same in all, else the
+// elements are listed.
 static bool explain_alone(struct explainer *e, str what, bool *known) {
     int row = -1;
     const struct schema_element *only = find_alone(what, &row);
@@ -430,6 +463,8 @@ static bool explain_alone(struct explainer *e, str what, bool *known) {
     }
     if (only || row < 0)
         return only || explain_concept(e, what) || explain_other_word(e, what, known);
+    if (explain_alike(e, what))
+        return true;
     strbuf_format(e->out, "several elements have '%.*s'; say which: ", STR_ARG(what));
     unsigned left = 0;
     for (const struct schema_element *const *s = schema_elements; *s; s++)

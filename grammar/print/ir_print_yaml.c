@@ -64,7 +64,7 @@ static void flow_number(struct yaml_writer *w, const struct print_value *v, int 
                         struct strbuf *out) {
     const struct ir_formula *formula = print_formula(w->scene, v, component);
     if (formula)
-        print_yaml_text(out, formula->text, true);
+        print_yaml_expression(out, formula->text);
     else
         print_number(out, number);
 }
@@ -94,7 +94,7 @@ static void flow_value(struct yaml_writer *w, const struct print_value *v, struc
     const void *field = print_field(v);
     const struct ir_formula *formula = print_formula(w->scene, v, IR_FORMULA_WHOLE);
     if (formula) {
-        print_yaml_text(out, formula->text, true);
+        print_yaml_expression(out, formula->text);
         return;
     }
     switch (row->kind) {

@@ -116,17 +116,20 @@ static span for_place(const struct evaluation *e, const struct copy_entry *entry
     return ir_place_value(&e->loader->output->origin, ir_walk_head(entry->memory), entry->row->child, "for");
 }
 
+// `factors`: ": 100 x 100". `product` 0: not known yet.
 static bool report_over(struct evaluation *e, const struct copy_entry *entry, double product, str factors) {
     struct arena *scratch = &e->loader->scratch;
     const char *what = schema_yaml_key(entry->row);
-    const str text =
+    const str number =
         product <= 0x1p53 ? arena_format(scratch, "%.0f", product) : arena_format(scratch, "%.3g", product);
+    str text = arena_format(scratch, "this makes %.*s %s%.*s", STR_ARG(number), what, STR_ARG(factors));
+    if (product <= 0)
+        text = arena_format(scratch, "this makes too many %s", what);
+    else if (e->copying->steps)
+        text = arena_format(scratch, "%.*s, after %llu by other entries", STR_ARG(text),
+                            (unsigned long long)e->copying->steps);
     e->copying->is_over = true;
-    reader_limit(
-        sink(e), e->loader->input->limits, LIMIT_COPIES, for_place(e, entry),
-        product > 0
-            ? arena_format(scratch, "this makes %.*s %s%.*s", STR_ARG(text), what, STR_ARG(factors)).ptr
-            : arena_format(scratch, "this makes too many %s", what).ptr);
+    reader_limit(sink(e), e->loader->input->limits, LIMIT_COPIES, for_place(e, entry), text.ptr);
     return false;
 }
 
@@ -393,7 +396,7 @@ static void fill(struct evaluation *e, const struct schema_row *row, struct copi
         visit_references(row->child, item, clone_in_place, e);
     }
     memcpy(schema_field(row, e->scene), &made, sizeof made);
-    if (made.count == 0) // an empty list is no list
+    if (made.count == 0) // an empty list is left out
         e->scene->head.written &= ~bind_bit(number_of(row));
     copies_leave(e);
 }

@@ -12,6 +12,7 @@ struct entry_variable {
     bool is_list;
     struct computed *values; // of a list
     uint32_t value_count;
+    uint32_t depends;                 // bit i: on variable i, as its values are computed
     const struct ir_formula *formula; // of a count; NULL: it is a number
     struct expression expression;
 };

@@ -85,6 +85,37 @@ void copies_tell_unused(const struct evaluation *e) {
     }
 }
 
+// ---- names that are not in reach
+
+const char *copies_help(struct evaluation *e, str name) {
+    for (uint32_t i = e->variable_count; e->entry && i < e->entry->variable_count; i++)
+        if (e->entry->variables[i].ir && str_equal(e->entry->variables[i].ir->name, name))
+            return "a variable of 'for' can use those before it, not those after it: exchange them";
+    if (!e->has_variables_named)
+        str_map_init(&e->variables_named, &e->loader->scratch);
+    for (uint32_t i = 0; !e->has_variables_named && i < SCHEMA_SCENE.row_count; i++) {
+        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
+        const struct ir_any_list list = ir_walk_list(row, copies_written(e));
+        for (uint32_t k = 0; copies_may(row) && k < list.count; k++) {
+            const struct schema_row *variables = &row->child->rows[schema_find_row(row->child, STR("for"))];
+            const struct ir_any_list of_entry = ir_walk_list(variables, ir_walk_item(row, list, k));
+            for (uint32_t v = 0; v < of_entry.count; v++)
+                *str_map_at(&e->variables_named, ((const struct ir_variable *)of_entry.items)[v].name) = 1;
+        }
+    }
+    e->has_variables_named = true;
+    return str_map_find(&e->variables_named, name)
+               ? "a variable of 'for' is known in its entry, and in what is written in place there"
+               : NULL;
+}
+
+bool copies_are_three(const struct evaluation *e, str name) {
+    for (uint32_t i = 0; e->entry && i < e->variable_count; i++)
+        if (str_equal(e->names[e->count + i], name))
+            return e->entry->variables[i].is_list && e->entry->variables[i].value_count == 3;
+    return false;
+}
+
 // ---- what cameras are focused on
 
 static const struct copy_entry *find_entry(const struct evaluation *e, str name) {

@@ -47,12 +47,44 @@ static bool name_fits(const struct evaluation *e, const struct entry_variable *v
     return true;
 }
 
+// ---- what an expression has in it
+
+static uint32_t named_in(const struct copy_entry *entry, str text) {
+    uint32_t used = 0;
+    size_t at = 0;
+    str name;
+    while (expression_next_name(text, &at, &name))
+        for (uint32_t i = 0; i < entry->variable_count; i++)
+            if (str_equal(entry->variables[i].ir->name, name))
+                used |= UINT32_C(1) << i | entry->variables[i].depends;
+    return used;
+}
+
 // ---- values
 
-static void report_moves(const struct evaluation *e, span at, const char *what) {
-    diag_add(sink(e), DIAG_COPIES_MOVE, at, "%s depends on the frame; copies are the same in all frames",
+static void report_moves(const struct evaluation *e, const struct ir_formula *f, const char *what) {
+    size_t at = 0;
+    str name;
+    diag_add(sink(e), DIAG_COPIES_MOVE, f->at, "%s depends on the frame; copies are the same in all frames",
              what);
+    while (expression_next_name(f->text, &at, &name)) {
+        const uint32_t number = str_map_find(&e->by_name, name);
+        if (number && e->items[number - 1].moves)
+            diag_note(sink(e), ir_place_label(&e->loader->output->origin, &e->items[number - 1].ir->head),
+                      "'%.*s' depends on it, or a track moves it", STR_ARG(name));
+    }
     diag_help(sink(e), "leave 'frame' and 'time' out of it, and parameters that depend on them");
+}
+
+static struct bind_frame frame_of(const struct evaluation *e, const struct copy_entry *entry,
+                                  const struct entry_variable *v) {
+    const struct schema_element *schema = entry->row->child;
+    return (struct bind_frame){.parent = entry->frame,
+                               .schema = &SCHEMA_VARIABLE,
+                               .via = &schema->rows[schema_find_row(schema, STR("for"))],
+                               .memory = (void *)v->ir,
+                               .name = v->ir->name,
+                               .label = place_of(e, v->ir, "name")};
 }
 
 static bool read_count(struct evaluation *e, const struct copy_entry *entry, struct entry_variable *v) {
@@ -60,15 +92,11 @@ static bool read_count(struct evaluation *e, const struct copy_entry *entry, str
     v->formula = ir_formula_of(e->scene->formulas, &v->ir->head, row, -1, IR_FORMULA_WHOLE);
     if (!v->formula)
         return true;
-    const struct bind_frame frame = {.parent = entry->frame,
-                                     .schema = &SCHEMA_VARIABLE,
-                                     .memory = (void *)v->ir,
-                                     .name = v->ir->name,
-                                     .label = place_of(e, v->ir, "name")};
+    const struct bind_frame frame = frame_of(e, entry, v);
     if (!evaluate_read(e, &frame, v->formula, &v->expression))
         return false;
     if (v->expression.moves)
-        report_moves(e, v->formula->at, "how many copies there are");
+        report_moves(e, v->formula, "how many copies there are");
     return !v->expression.moves;
 }
 
@@ -88,6 +116,7 @@ static bool read_values(struct evaluation *e, struct entry_variable *v, struct c
             continue;
         diag_add(sink(e), DIAG_VARIABLE, at, "the values of '%.*s' are not alike: one is %s, another %s",
                  STR_ARG(v->ir->name), expression_type_name(type->type), expression_type_name(value->type));
+        diag_help(sink(e), "write all of them as numbers, or all as vectors or colours");
         return false;
     }
     return true;
@@ -97,6 +126,7 @@ static bool read_variable(struct evaluation *e, struct copy_entry *entry, uint32
     struct entry_variable *v = &entry->variables[i];
     struct copy_variable *type = &entry->types[i];
     v->is_list = v->ir->kind == IR_VARIABLE_VALUES;
+    v->depends = v->is_list ? named_in(entry, v->ir->values) : 0;
     if (v->ir->head.poisoned || !name_fits(e, v) ||
         !(v->is_list ? read_values(e, v, type) : read_count(e, entry, v)))
         return false;
@@ -118,7 +148,7 @@ static bool read_condition(struct evaluation *e, struct copy_entry *entry) {
     if (!evaluate_read(e, entry->frame, entry->condition, &entry->if_expression))
         return false;
     if (entry->if_expression.moves)
-        report_moves(e, entry->condition->at, "'if'");
+        report_moves(e, entry->condition, "'if'");
     return !entry->if_expression.moves;
 }
 
@@ -158,13 +188,11 @@ bool copies_size(struct evaluation *e, const struct copy_entry *entry, uint32_t 
         evaluation_fault(e, DIAG_EXPRESSION, v->formula->text, v->formula->at, evaluation_suffix(e), &fault);
         return false;
     }
-    const struct bind_frame frame = {.parent = entry->frame,
-                                     .schema = &SCHEMA_VARIABLE,
-                                     .memory = (void *)v->ir,
-                                     .name = v->ir->name,
-                                     .label = place_of(e, v->ir, "name")};
+    const struct bind_frame frame = frame_of(e, entry, v);
+    if (!evaluate_fits(e, bind_subject(&frame, v->formula->row), v->formula, value[0]))
+        return false;
     *size = (uint32_t)value[0];
-    return evaluate_fits(e, bind_subject(&frame, v->formula->row), v->formula, value[0]);
+    return true;
 }
 
 bool copies_set(struct evaluation *e, const struct copy_entry *entry, uint32_t variable, uint32_t place) {
@@ -174,19 +202,6 @@ bool copies_set(struct evaluation *e, const struct copy_entry *entry, uint32_t v
         return computed_value(e, &v->values[place], place_of(e, v->ir, "values"), value);
     *value = place;
     return true;
-}
-
-// ---- what an expression has in it
-
-static uint32_t named_in(const struct copy_entry *entry, str text) {
-    uint32_t used = 0;
-    size_t at = 0;
-    str name;
-    while (expression_next_name(text, &at, &name))
-        for (uint32_t i = 0; i < entry->variable_count; i++)
-            if (str_equal(entry->variables[i].ir->name, name))
-                used |= UINT32_C(1) << i;
-    return used;
 }
 
 uint32_t copies_used(const struct evaluation *e, const struct copy_entry *entry,

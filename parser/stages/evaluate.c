@@ -42,7 +42,7 @@ static bool is_plain_mistake(struct evaluation *e, const struct ir_formula *f,
         return true;
     const struct diag_expression expression = {.names = e->names, .name_count = e->count + e->variable_count};
     return fault->problem == EXPRESSION_UNKNOWN_NUMBER && expression_is_name(f->text) &&
-           !(e->variable_count && f->text.len <= SHORT_NAME) &&
+           !(e->variable_count && f->text.len <= SHORT_NAME) && !copies_help(e, f->text) &&
            !diag_expression_is_near(sink(e), &expression, f->text);
 }
 
@@ -76,6 +76,8 @@ static bool wrong_type(struct evaluation *e, const struct bind_frame *frame, con
              STR_ARG(say_text(scratch, f->text)), expression_type_name(type));
     if (is_boolean && type == EXPRESSION_NUMBER)
         diag_help(sink(e), "write %.*s > 0", STR_ARG(say_text(scratch, f->text)));
+    if (schema_components(f->row->kind)[0] && type == EXPRESSION_NUMBER && copies_are_three(e, f->text))
+        diag_help(sink(e), "a list of one vector is written in two brackets: [[1, 2, 3]]");
     return false;
 }
 

@@ -76,11 +76,13 @@ struct evaluation {
     struct copying *copying;        // NULL: nothing is copied
     struct copy_formula *formulas;  // by their index
     uint32_t formula_count;
-    bool only_types;        // formulas are read, and not computed
-    uint64_t operations;    // done, in additions
-    bool is_over;           // the limit on them, which was reported
-    struct str_map by_name; // 1 + index
-    uint32_t *order;        // each after those that it is computed from
+    bool only_types;                // formulas are read, and not computed
+    uint64_t operations;            // done, in additions
+    bool is_over;                   // the limit on them, which was reported
+    struct str_map by_name;         // 1 + index
+    struct str_map variables_named; // of all entries, once asked for
+    bool has_variables_named;
+    uint32_t *order; // each after those that it is computed from
     uint32_t ordered;
     double *values; // EXPRESSION_WIDTH of each, parameters first
     struct expression_scope scope;
@@ -163,6 +165,10 @@ struct ir_scene *copies_written(const struct evaluation *evaluation);
 void copies_finish(struct evaluation *evaluation);
 // Warns of variables that nothing uses.
 void copies_tell_unused(const struct evaluation *evaluation);
+// What is said of a name that is not in reach, and is a variable of some entry; NULL: it is of none.
+const char *copies_help(struct evaluation *evaluation, str name);
+// Whether a name is that of a variable, in reach, with a list of three numbers.
+bool copies_are_three(const struct evaluation *evaluation, str name);
 // Cameras that are focused on a copy.
 void copies_check_focus(struct evaluation *evaluation);
 

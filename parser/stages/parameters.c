@@ -45,7 +45,10 @@ void evaluation_fault(struct evaluation *e, diag_code code, str text, span at, c
                                                .suffix = suffix,
                                                .names = e->names,
                                                .name_count = e->count + e->variable_count};
-    diag_expression_fault(sink(e), e->loader->input->sources, code, &expression, fault);
+    struct expression_fault told = *fault;
+    if (fault->problem == EXPRESSION_UNKNOWN_NUMBER && !fault->help)
+        told.help = copies_help(e, str_slice(text, fault->begin, fault->end));
+    diag_expression_fault(sink(e), e->loader->input->sources, code, &expression, &told);
 }
 
 bool evaluation_compile(struct evaluation *e, diag_code code, str text, span at,
