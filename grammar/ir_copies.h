@@ -10,6 +10,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+struct ir_scene;
 struct schema_row;
 
 enum {
@@ -35,6 +36,7 @@ struct ir_copies {
         struct ir_copied *items;
         uint32_t count, capacity;
     } entries;
+    const struct ir_scene *written; // the scene before, resolved, without values; NULL: nobody asked for it
 };
 
 // What an item of a list of the scene is called if it has no name: spheres[2], spheres[2][3]. `copies` may be

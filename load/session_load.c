@@ -311,6 +311,7 @@ static struct parser_input parser_input(struct session *session) {
                                  .arena = &session->arena,
                                  .sets = session->options.sets,
                                  .set_count = session->options.set_count,
+                                 .keeps_written = session->options.keeps_written,
                                  .timeline = session->options.timeline};
 }
 

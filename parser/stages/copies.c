@@ -5,6 +5,7 @@
 #include "diag/codes/reference.h"
 
 #include "core/heap.h"
+#include "grammar/ir_copy.h"
 #include "parser/bind/say.h"
 #include "parser/bind/visit.h"
 #include "parser/tree/reader_text.h"
@@ -458,6 +459,9 @@ void copies_make(struct evaluation *e) {
     push_places(e, (const uint32_t[]){0}, 0); // none
     e->formula_count = e->scene->formulas->count;
     e->formulas = ARENA_ARRAY(scratch, struct copy_formula, e->formula_count);
+    // Later stages move what is in place, and the lists without copies are the scene's own.
+    const struct ir_scene *written =
+        e->loader->input->keeps_written ? ir_copy(e->scene, e->loader->input->arena) : NULL;
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++)
         if (copies_may(&SCHEMA_SCENE.rows[i]))
             make_list(e, &SCHEMA_SCENE.rows[i]);
@@ -466,6 +470,7 @@ void copies_make(struct evaluation *e) {
     list_entries(e, copies);
     copies->lists = ARENA_ARRAY(e->loader->input->arena, struct ir_copy *, SCHEMA_SCENE.row_count);
     copies->places = e->copying->places;
+    copies->written = written;
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++)
         copies->lists[i] = e->copying->lists[i].made;
     e->loader->output->origin.copies = copies;
