@@ -57,7 +57,7 @@ json_t *server_colors(const struct request *request) {
     struct coloring coloring = {request, locate_source(session, request->document->path),
                                 is_transfer_srgb(request), json_array()};
     if (session->scene && coloring.source != SOURCE_DEFAULT)
-        locate_walk(&SCHEMA_SCENE, session->scene, add_colors, &coloring);
+        locate_walk(&SCHEMA_SCENE, locate_scene(session), add_colors, &coloring);
     return coloring.list;
 }
 

@@ -56,7 +56,7 @@ struct located locate(struct session *session, str path, size_t offset) {
     struct search search = {.session = session, .source = locate_source(session, path), .offset = offset};
     if (!session->scene || search.source == SOURCE_DEFAULT)
         return search.found;
-    locate_walk(&SCHEMA_SCENE, session->scene, search_element, &search);
+    locate_walk(&SCHEMA_SCENE, locate_scene(session), search_element, &search);
     // The merged scene no longer has includes.
     for (uint32_t i = 0; i < session->origin.files.count; i++) {
         const struct ir_file_origin *file = &session->origin.files.items[i];
@@ -86,7 +86,7 @@ static void note_users(void *context, const struct schema_element *schema, const
             continue;
         const struct ir_reference *reference = schema_field_const(row, element);
         if (reference->name.len == 0 ||
-            ir_walk_referent(users->session->scene, row, reference) != users->referent)
+            ir_walk_referent(locate_scene(users->session), row, reference) != users->referent)
             continue;
         const struct ir_row_origin *place = ir_origin_row(&users->session->origin, ir_walk_head(element), i);
         bool known = !place;
@@ -97,43 +97,33 @@ static void note_users(void *context, const struct schema_element *schema, const
     }
 }
 
-// Where an element's name is written: in a map of YAML as the key, elsewhere as the key row's value.
-static span name_place(const struct session *session, const struct schema_element *schema,
-                       const void *element) {
-    int key = schema_key_row(schema);
-    const struct ir_row_origin *row =
-        key < 0 ? NULL : ir_origin_row(&session->origin, ir_walk_head(element), (uint32_t)key);
-    return row ? row->value : ir_place_label(&session->origin, ir_walk_head(element));
-}
-
 bool locate_name(struct session *session, const struct located *at, struct arena *arena,
                  struct located_name *out) {
+    const struct ir_scene *scene = locate_scene(session);
     *out = (struct located_name){0};
-    if (!at->schema || !session->scene)
+    if (!at->schema || !scene)
         return false;
-    const struct schema_element *schema = at->schema;
-    const void *named = at->element;
-    span word = at->at;
-    const struct ir_parameter *parameter = locate_parameter(session, at, &word);
-    if (parameter) {
-        schema = &SCHEMA_PARAMETER;
-        named = parameter;
-    } else if (at->row && at->row->kind == SCHEMA_REFERENCE && at->in_value) {
-        schema = at->row->child;
-        named = ir_walk_referent(session->scene, at->row, schema_field_const(at->row, at->element));
-    } else if (!span_equal(at->at, name_place(session, schema, named))) {
+    const bool is_word = locate_word(session, at, arena, out);
+    if (!is_word) {
+        out->schema = at->schema;
+        out->element = at->element;
+        out->here = at->at;
+    }
+    if (!is_word && at->row && at->row->kind == SCHEMA_REFERENCE && at->in_value) {
+        out->schema = at->row->child;
+        out->element = ir_walk_referent(scene, at->row, schema_field_const(at->row, at->element));
+    } else if (!is_word && !span_equal(at->at, locate_name_place(session, at->schema, at->element))) {
         return false;
     }
-    if (!named || ir_walk_key(schema, named).len == 0)
+    if (!out->element || ir_walk_key(out->schema, out->element).len == 0)
         return false;
-    out->name = ir_walk_key(schema, named);
-    out->schema = schema;
-    out->element = named;
-    out->here = parameter ? word : at->at;
-    out->definition = name_place(session, schema, named);
-    struct users users = {session, arena, named, out};
-    locate_walk(&SCHEMA_SCENE, session->scene, note_users, &users);
-    if (schema == &SCHEMA_PARAMETER)
-        locate_parameter_uses(session, named, arena, out);
+    out->name = ir_walk_key(out->schema, out->element);
+    out->definition = locate_name_place(session, out->schema, out->element);
+    if (out->schema == &SCHEMA_VARIABLE && !is_word)
+        out->scope = locate_scope(session, out->element, arena);
+    struct users users = {session, arena, out->element, out};
+    locate_walk(&SCHEMA_SCENE, scene, note_users, &users);
+    if (out->schema == &SCHEMA_PARAMETER || out->schema == &SCHEMA_VARIABLE)
+        locate_word_uses(session, arena, out);
     return true;
 }

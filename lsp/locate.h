@@ -4,6 +4,7 @@
 #ifndef GLINT_LSP_LOCATE_H
 #define GLINT_LSP_LOCATE_H
 
+#include "core/strbuf.h"
 #include "grammar/ir.h"
 #include "grammar/schema.h"
 #include "load/session.h"
@@ -22,6 +23,37 @@ struct located locate(struct session *session, str path, size_t offset);
 // The source of a file that the session read (canonical path), or SOURCE_DEFAULT.
 uint32_t locate_source(struct session *session, str path);
 
+// ---- locate_walk.c
+
+// The scene as it is written; session->scene has the copies that `for` and `if` make.
+const struct ir_scene *locate_scene(const struct session *session);
+
+// Where an element's name is written: in a map of YAML as the key, elsewhere as the key row's value.
+span locate_name_place(const struct session *session, const struct schema_element *schema,
+                       const void *element);
+
+// Calls `visit` for every element of the scene: also included ones, and materials written in place.
+typedef void locate_visit(void *context, const struct schema_element *schema, const void *element);
+void locate_walk(const struct schema_element *schema, const void *element, locate_visit *visit,
+                 void *context);
+
+// The entry that an element is in, or is, whose variables are known in its expressions.
+struct located_scope {
+    const struct schema_row *list; // of the scene; NULL: it is in none that can have variables
+    const void *entry;
+    uint32_t index; // in the list
+    uint32_t reach; // so many of the variables: in what makes a variable, those before it
+};
+// All variables of the entry.
+struct ir_variables locate_variables(const struct located_scope *scope);
+// The same walk through the scene as it is written, but for the scene itself.
+typedef void locate_visit_scoped(void *context, const struct schema_element *schema, const void *element,
+                                 const struct located_scope *scope);
+void locate_walk_scoped(const struct session *session, struct arena *arena, locate_visit_scoped *visit,
+                        void *context);
+
+// ---- names
+
 // Something with a name that others refer to, and its places.
 struct located_name {
     str name;
@@ -33,25 +65,39 @@ struct located_name {
         span *items;
         uint32_t count, capacity;
     } uses;
+    struct located_scope scope; // of a variable
+    bool is_shared;             // a place in `uses` is also another's, through an anchor
 };
 // The name at a located place, in a definition or a reference. Uses are in `arena`, which must be guarded.
 // false: there is no name, or nothing has it.
 bool locate_name(struct session *session, const struct located *at, struct arena *arena,
                  struct located_name *out);
 
-// ---- locate_parameter.c: names of parameters in expressions
+// ---- locate_words.c: names in expressions, of parameters and variables
 
-// The parameter whose name is at the place, in an expression; NULL: there is none. *word: the name's place.
-const struct ir_parameter *locate_parameter(struct session *session, const struct located *at, span *word);
-// Adds the places in expressions where a parameter is used.
-void locate_parameter_uses(struct session *session, const struct ir_parameter *parameter, struct arena *arena,
-                           struct located_name *out);
+// The entry around an element of the written scene.
+struct located_scope locate_scope(const struct session *session, const void *element, struct arena *arena);
+// What the name at a place in an expression means: its schema, element, place and scope. false: nothing.
+bool locate_word(const struct session *session, const struct located *at, struct arena *arena,
+                 struct located_name *out);
+// Adds the places in expressions where a parameter or variable is used.
+void locate_word_uses(const struct session *session, struct arena *arena, struct located_name *name);
+// Why it cannot have another name, as `text` would then mean something else somewhere; NULL: it can.
+const char *locate_word_conflict(const struct session *session, struct arena *arena,
+                                 const struct located_name *name, str text);
 
-// ---- locate_walk.c
+// ---- locate_values.c: what is computed
 
-// Calls `visit` for every element of the scene: also included ones, and materials written in place.
-typedef void locate_visit(void *context, const struct schema_element *schema, const void *element);
-void locate_walk(const struct schema_element *schema, const void *element, locate_visit *visit,
-                 void *context);
+// Appends what a variable is in the copies: "0 to 11", "one of 2 values: -4, 3"; nothing if no copy is known.
+void locate_print_variable(const struct session *session, const struct located_scope *scope,
+                           const struct ir_variable *variable, struct strbuf *out);
+// Whether a row is `for` or `if`.
+bool locate_is_of_copies(const struct schema_row *row);
+// The number of copies that an entry makes.
+uint32_t locate_copies(const struct session *session, const struct located_scope *scope);
+// Appends the value at a place, or the values in all copies: "3", "0.2 to 2.4 in 12 copies". false: what is
+// there is not computed, or has no value.
+bool locate_print_value(const struct session *session, const struct located *at, struct arena *arena,
+                        struct strbuf *out);
 
 #endif

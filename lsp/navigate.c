@@ -9,6 +9,11 @@
 
 #include <string.h>
 
+enum highlight_kind { // LSP 3.17, "Document Highlights"
+    HIGHLIGHT_READ = 2,
+    HIGHLIGHT_WRITE = 3,
+};
+
 enum {
     SNIPPET_BYTES = 1000, // of a definition that is shown
 };
@@ -58,11 +63,10 @@ static json_t *mesh_group_location(const struct request *request, const struct l
     for (uint32_t i = 0; i < session->assets.model_count; i++) {
         const struct ir_model *model = &session->scene->models.items[i];
         const struct mesh *mesh = session->assets.models[i].mesh;
-        const struct ir_map_entry *first = model->material_map.items;
-        const struct ir_map_entry *entry = at->element;
-        bool is_mine = false;
+        const uint32_t origin = ir_walk_head(at->element)->origin;
+        bool is_mine = false; // the model, or a copy of it
         for (uint32_t k = 0; k < model->material_map.count; k++)
-            is_mine |= first + k == entry;
+            is_mine |= model->material_map.items[k].head.origin == origin;
         for (uint32_t g = 0; is_mine && mesh && g < mesh->group_count; g++) {
             if (!str_equal(mesh->groups[g].name, *name) || mesh->groups[g].line == 0)
                 continue;
@@ -137,6 +141,28 @@ static void add_edit(const struct request *request, json_t *changes, span at, st
     json_decref(location);
 }
 
+// The name's places in the document.
+json_t *server_highlights(const struct request *request) {
+    struct located_name name;
+    struct located at = located_at(request);
+    const uint32_t source = locate_source(request->session, request->document->path);
+    json_t *list = json_array();
+    if (!name_at(request, &at, &name))
+        return list;
+    for (uint32_t i = 0; i <= name.uses.count; i++) {
+        const span place = i < name.uses.count ? name.uses.items[i] : name.definition;
+        if (place.source != source)
+            continue;
+        json_t *highlight = json_object();
+        json_object_set_new(highlight, "range",
+                            server_range(request->server, request->session, bare(request->session, place)));
+        json_object_set_new(highlight, "kind",
+                            json_integer(i < name.uses.count ? HIGHLIGHT_READ : HIGHLIGHT_WRITE));
+        json_array_append_new(list, highlight);
+    }
+    return list;
+}
+
 json_t *server_prepare_rename(const struct request *request) {
     struct located_name name;
     struct located at = located_at(request);
@@ -150,11 +176,23 @@ static bool is_taken(const struct session *session, const struct schema_element 
     const struct schema_row *pool = ir_walk_pool(schema);
     if (!pool)
         return false;
-    struct ir_any_list list = ir_walk_list(pool, session->scene);
+    struct ir_any_list list = ir_walk_list(pool, locate_scene(session));
     for (uint32_t i = 0; i < list.count; i++)
         if (str_equal(ir_walk_key(schema, ir_walk_item(pool, list, i)), name))
             return true;
     return false;
+}
+
+// Why something in expressions cannot have the name; NULL: it can.
+static const char *refusal_of_word(const struct request *request, const struct located_name *name,
+                                   const char *text) {
+    if (name->schema != &SCHEMA_PARAMETER && name->schema != &SCHEMA_VARIABLE)
+        return NULL;
+    if (!expression_is_free(str_from(text)))
+        return name->schema == &SCHEMA_PARAMETER
+                   ? "a parameter's name has letters, digits and '_', and is not a word of expressions"
+                   : "a variable's name has letters, digits and '_', and is not a word of expressions";
+    return locate_word_conflict(request->session, request->arena, name, str_from(text));
 }
 
 json_t *server_rename(const struct request *request) {
@@ -167,11 +205,9 @@ json_t *server_rename(const struct request *request) {
     struct located at = located_at(request);
     if (!name_at(request, &at, &name))
         return NULL;
-    if (name.schema == &SCHEMA_PARAMETER && !expression_is_free(str_from(text))) {
-        request->server->refusal =
-            "a parameter's name has letters, digits and '_', and is not a word of expressions";
+    request->server->refusal = refusal_of_word(request, &name, text);
+    if (request->server->refusal)
         return NULL;
-    }
     if (!str_equal(str_from(text), name.name) && is_taken(request->session, name.schema, str_from(text))) {
         request->server->refusal = "another one already has this name";
         return NULL;
@@ -187,8 +223,8 @@ json_t *server_rename(const struct request *request) {
 
 // ---- hover
 
-static void add_value(const struct ir_scene *scene, const struct ir_parameter *parameter,
-                      struct strbuf *out) {
+static void add_parameter(const struct ir_scene *scene, const struct ir_parameter *parameter,
+                          struct strbuf *out) {
     const struct ir_result *results = scene->formulas->results;
     const ptrdiff_t index = parameter - scene->parameters.items;
     if (!results || !results[index].is_known)
@@ -198,10 +234,30 @@ static void add_value(const struct ir_scene *scene, const struct ir_parameter *p
     strbuf_char(out, ',');
 }
 
+// Appends `before` and the number of copies; a mistake may be why there are none.
+static void add_copies(const struct request *request, const struct located_scope *scope, const char *before,
+                       struct strbuf *out) {
+    const uint32_t copies = locate_copies(request->session, scope);
+    if (copies || !request->session->sink.errors)
+        strbuf_format(out, copies == 1 ? "%s%u copy" : "%s%u copies", before, copies);
+}
+
+static void add_variable(const struct request *request, const struct located_name *name, struct strbuf *out) {
+    struct strbuf values;
+    strbuf_init(&values);
+    locate_print_variable(request->session, &name->scope, name->element, &values);
+    if (values.len)
+        strbuf_format(out, " = %.*s,", STR_ARG(strbuf_view(&values)));
+    strbuf_finish(&values);
+}
+
 static void add_definition(const struct request *request, const struct located *at, struct strbuf *out) {
     struct session *session = request->session;
     struct located_name name;
-    if (!at->in_value || !name_at(request, at, &name))
+    if (!name_at(request, at, &name))
+        return;
+    const bool is_variable = name.schema == &SCHEMA_VARIABLE, is_parameter = name.schema == &SCHEMA_PARAMETER;
+    if (!at->in_value && !is_variable && !is_parameter) // it is there
         return;
     str text = source_text(&session->sources, name.definition);
     // The whole element, from the place of its name.
@@ -212,14 +268,40 @@ static void add_definition(const struct request *request, const struct located *
     text = position_clip(text, SNIPPET_BYTES);
     struct source_place where = source_locate(&session->sources, name.definition);
     strbuf_format(out, "%s '%.*s'", name.schema->name, STR_ARG(name.name));
-    if (name.schema == &SCHEMA_PARAMETER)
-        add_value(session->scene, name.element, out);
-    strbuf_format(out, " of %.*s:%u\n\n", STR_ARG(path_base(where.path)), where.line);
+    if (is_parameter)
+        add_parameter(locate_scene(session), name.element, out);
+    if (is_variable)
+        add_variable(request, &name, out);
+    strbuf_format(out, " of %.*s:%u", STR_ARG(path_base(where.path)), where.line);
+    if (is_variable)
+        add_copies(request, &name.scope, ", which makes ", out);
+    strbuf_cstr(out, "\n\n");
     if (request->server->has_markdown)
         markdown_code(text, ir_origin_is_xml(&session->origin, name.definition.source) ? "xml" : "yaml", out);
     else
         strbuf_format(out, "%.*s\n", STR_ARG(text));
     strbuf_char(out, '\n');
+}
+
+// What an expression has come to, and what `for` and `if` have.
+static void add_value(const struct request *request, const struct located *at, struct strbuf *out) {
+    struct strbuf value;
+    struct located_scope scope = {0};
+    strbuf_init(&value);
+    if (locate_is_of_copies(at->row) || at->schema == &SCHEMA_VARIABLE)
+        scope = locate_scope(request->session, at->element, request->arena);
+    if (locate_is_of_copies(at->row)) {
+        add_copies(request, &scope, "makes ", out);
+        strbuf_cstr(out, "\n\n");
+    } else if (at->schema == &SCHEMA_VARIABLE && !at->row->key) {
+        locate_print_variable(request->session, &scope, at->element, &value);
+        if (value.len)
+            strbuf_format(out, "%.*s = %.*s\n\n", STR_ARG(ir_walk_key(at->schema, at->element)),
+                          STR_ARG(strbuf_view(&value)));
+    } else if (locate_print_value(request->session, at, request->arena, &value)) {
+        strbuf_format(out, "%s = %.*s\n\n", at->row->name, STR_ARG(strbuf_view(&value)));
+    }
+    strbuf_finish(&value);
 }
 
 static void add_explanation(str what, bool markdown, struct strbuf *out) {
@@ -237,8 +319,9 @@ json_t *server_hover(const struct request *request) {
         return NULL;
     struct strbuf text;
     strbuf_init(&text);
+    add_definition(request, &at, &text);
     if (at.row)
-        add_definition(request, &at, &text);
+        add_value(request, &at, &text);
     str what = at.row ? arena_format(request->arena, "%s.%s", at.schema->name, at.row->name)
                       : str_from(at.schema->name);
     add_explanation(what, request->server->has_markdown, &text);
@@ -333,7 +416,7 @@ static void add_symbol(struct outline *outline, json_t *list, const struct schem
 json_t *server_symbols(const struct request *request) {
     json_t *list = json_array();
     struct outline outline = {request, locate_source(request->session, request->document->path)};
-    add_symbols(&outline, list, &SCHEMA_SCENE, request->session->scene);
+    add_symbols(&outline, list, &SCHEMA_SCENE, locate_scene(request->session));
     return list;
 }
 

@@ -1,5 +1,6 @@
 // Keeps the scenes up to date with the open documents: loads them, and decides which are needed.
 #include "grammar/schema.h"
+#include "lsp/locate.h"
 #include "lsp/scene.h"
 
 #include "grammar/ir_walk.h"
@@ -31,7 +32,7 @@ static void note_names(struct lsp_scene *scene) {
     scene->names = json_object();
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
         const struct schema_row *row = &SCHEMA_SCENE.rows[i];
-        struct ir_any_list list = ir_walk_list(row, scene->session.scene);
+        struct ir_any_list list = ir_walk_list(row, locate_scene(&scene->session));
         json_t *names = list.count ? json_array() : NULL;
         for (uint32_t k = 0; k < list.count; k++) {
             str name = ir_walk_key(row->child, ir_walk_item(row, list, k));
@@ -61,6 +62,7 @@ static void load(struct scenes *scenes, struct lsp_scene *scene, enum scenes_eff
     struct file_overlay *overlays = scenes_overlays(scenes);
     struct session_options options = scenes->settings;
     options.path = scene->path;
+    options.keeps_written = true;
     options.pixels = effort == SCENES_QUICK ? ASSETS_SKIP_PIXELS : ASSETS_CHECK_PIXELS;
     options.skip_lint = effort == SCENES_QUICK && scene->lint_seconds > LINT_SECONDS_QUICK;
     options.overlays = overlays;

@@ -47,7 +47,7 @@ static void choose_texts(struct server *server, const json_t *client) {
 static json_t *capabilities(const struct server *server) {
     static const char *const encodings[] = {"utf-16", "utf-8", "utf-32"};
     json_t *commands = server->preview ? json_pack("{s:[s]}", "commands", SERVER_PREVIEW) : NULL;
-    return json_pack("{s:s, s:{s:b, s:i, s:{s:b}}, s:{s:[s,s]}, s:b, s:b, s:{s:b}, s:b, s:b, s:{}, "
+    return json_pack("{s:s, s:{s:b, s:i, s:{s:b}}, s:{s:[s,s]}, s:b, s:b, s:b, s:{s:b}, s:b, s:b, s:{}, "
                      "s:{s:[s,s,s,s,s]}, s:b, s:b, s:o*}",
                      "positionEncoding", encodings[server->encoding], //
                      "textDocumentSync", "openClose", 1, "change", 2, // incremental
@@ -55,6 +55,7 @@ static json_t *capabilities(const struct server *server) {
                      "codeActionProvider", "codeActionKinds", "quickfix", "source.fixAll.glint",
                      "definitionProvider", 1,                //
                      "referencesProvider", 1,                //
+                     "documentHighlightProvider", 1,         //
                      "renameProvider", "prepareProvider", 1, //
                      "hoverProvider", 1,                     //
                      "documentSymbolProvider", 1,            //
@@ -164,6 +165,7 @@ static const struct method {
     {"textDocument/codeAction", server_code_actions, ANSWER_EMPTY},
     {"textDocument/definition", server_definition, ANSWER_NULL},
     {"textDocument/references", server_references, ANSWER_EMPTY},
+    {"textDocument/documentHighlight", server_highlights, ANSWER_EMPTY},
     {"textDocument/prepareRename", server_prepare_rename, ANSWER_NULL},
     {"textDocument/rename", server_rename, ANSWER_NULL},
     {"textDocument/hover", server_hover, ANSWER_NULL},

@@ -55,9 +55,9 @@ json_t *server_diagnostic(struct server *server, struct session *session, struct
 // Each answers one request; the result is a new reference, NULL for null. Only server_formatting is asked for
 // documents without a scene.
 typedef json_t *server_answer(const struct request *request);
-server_answer server_code_actions, server_definition, server_references, server_prepare_rename, server_rename,
-    server_hover, server_symbols, server_links, server_completion, server_formatting, server_colors,
-    server_color_texts;
+server_answer server_code_actions, server_definition, server_references, server_highlights,
+    server_prepare_rename, server_rename, server_hover, server_symbols, server_links, server_completion,
+    server_formatting, server_colors, server_color_texts;
 
 // ---- preview.c
 

@@ -524,10 +524,11 @@ static void refuses_what_it_does_not_know(void **state) {
     json_decref(answer);
     // Malformed parameters of every method: an answer or silence, and the server lives on.
     static const char *const methods[] = {
-        "textDocument/codeAction",     "textDocument/definition",    "textDocument/references",
-        "textDocument/prepareRename",  "textDocument/rename",        "textDocument/hover",
-        "textDocument/documentSymbol", "textDocument/documentLink",  "textDocument/completion",
-        "textDocument/formatting",     "textDocument/documentColor", "textDocument/colorPresentation"};
+        "textDocument/codeAction",       "textDocument/definition",    "textDocument/references",
+        "textDocument/prepareRename",    "textDocument/rename",        "textDocument/hover",
+        "textDocument/documentSymbol",   "textDocument/documentLink",  "textDocument/completion",
+        "textDocument/formatting",       "textDocument/documentColor", "textDocument/colorPresentation",
+        "textDocument/documentHighlight"};
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         json_decref(client_request(client, methods[i], NULL, NULL));
         json_decref(client_request(client, methods[i],
