@@ -4,10 +4,13 @@
 
 #include "core/expression.h"
 #include "core/heap.h"
+#include "core/number.h"
 #include "core/strbuf.h"
 #include "files/files_walk.h"
 #include "grammar/emit/emit_words.h"
+#include "grammar/ir_values.h"
 #include "grammar/ir_walk.h"
+#include "parser/tree/reader.h"
 
 #include <string.h>
 
@@ -25,6 +28,11 @@ static bool is_word(char c) {
     return c != ' ' && c != '\t' && c != '\n' && c != '\r' && !strchr("\"'[]{},=:<>", c);
 }
 
+// Whether the '=' before a place is of ==, !=, <= or >=, also of &lt;=.
+static bool is_compared(str text, size_t at) {
+    return (at >= 2 && strchr("=!<>;", text.ptr[at - 2])) || (at < text.len && text.ptr[at] == '=');
+}
+
 static struct typed typed_at(str text, size_t offset) {
     struct typed typed = {0};
     size_t at = offset;
@@ -34,7 +42,8 @@ static struct typed typed_at(str text, size_t offset) {
     typed.word = str_slice(text, at, offset);
     while (at > 0 && text.ptr[at - 1] != '\n' && strchr(" \t\"'[", text.ptr[at - 1]))
         at--;
-    if (at == 0 || (text.ptr[at - 1] != ':' && text.ptr[at - 1] != '='))
+    if (at == 0 || (text.ptr[at - 1] != ':' && text.ptr[at - 1] != '=') ||
+        (text.ptr[at - 1] == '=' && is_compared(text, at)))
         return typed;
     size_t end = at - 1;
     while (end > 0 && (text.ptr[end - 1] == ' ' || text.ptr[end - 1] == '"'))
@@ -48,10 +57,11 @@ static struct typed typed_at(str text, size_t offset) {
 
 // The key of a value that has an operator, a comma in brackets or another word before the typed one: nothing
 // may end the value between them. Empty: there is none.
-static str key_of_value(str text, size_t at) {
+static str key_of_value(str text, size_t place, bool is_xml) {
+    size_t at = place;
     bool has_comma = false; // outside of brackets that end before the place
     int depth = 0;
-    for (; at > 0 && !strchr("\n\r{}<>", text.ptr[at - 1]); at--) {
+    for (; at > 0 && !strchr(is_xml ? "\n\r{}<" : "\n\r{}", text.ptr[at - 1]); at--) {
         const char c = text.ptr[at - 1];
         const bool is_colon = c == ':' && at < text.len && text.ptr[at] == ' ';
         if (c == ']' || c == ')')
@@ -66,9 +76,11 @@ static str key_of_value(str text, size_t at) {
         size_t begin = at - 1;
         while (begin > 0 && is_word(text.ptr[begin - 1]))
             begin--;
-        const bool is_compared = c == '=' && (at - begin <= 1 || (at < text.len && text.ptr[at] == '='));
-        if (!is_compared)
-            return has_comma ? STR("") : str_slice(text, begin, at - 1);
+        const bool is_quoted = c == '=' && at < text.len && strchr("\"'", text.ptr[at]);
+        if (is_quoted && memchr(text.ptr + at + 1, text.ptr[at], place - at - 1))
+            return STR(""); // it ends before the place
+        if (c != '=' || (at - begin > 1 && !is_compared(text, at)))
+            return has_comma && !is_quoted ? STR("") : str_slice(text, begin, at - 1);
     }
     return STR("");
 }
@@ -120,7 +132,7 @@ static void offer(struct completing *c, str label, enum completion_kind kind, co
 
 static void offer_names(struct completing *c, const struct schema_element *target) {
     const struct schema_row *pool = ir_walk_pool(target);
-    const struct ir_scene *scene = c->request->session->scene;
+    const struct ir_scene *scene = locate_scene(c->request->session);
     size_t index;
     const json_t *name_before;
     json_array_foreach(json_object_get(c->request->scene->names, target->name), index, name_before)
@@ -172,8 +184,10 @@ static void offer_insert(struct completing *c, str label, const char *doc, str p
 
 static bool may_compute(const struct schema_row *row, str key) {
     const char *const *names = schema_components(row->kind);
-    const bool is_text = row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_VALUES;
-    if (!is_text && !schema_may_compute(row))
+    const int inner = row->kind == SCHEMA_ELEMENT ? schema_short_row(row->child) : -1;
+    if (inner >= 0 && schema_may_compute(&row->child->rows[inner])) // diffuse_color: [...]
+        return str_equal_cstr(key, row->name);
+    if (!schema_has_values(row) && !schema_may_compute(row))
         return false;
     if (str_equal_cstr(key, row->name) || (row->plural && str_equal_cstr(key, row->plural)))
         return true;
@@ -191,11 +205,70 @@ static bool is_of_expression(str key) {
     return false;
 }
 
-// Parameters and the language's own words, in the place of the name that is typed.
+// "0 to 11", "0 to rows - 1", "one of 2 values".
+static str detail_of(struct arena *arena, const struct context_variable *variable) {
+    double number;
+    if (variable->value.len == 0)
+        return STR("");
+    if (variable->is_list) {
+        const uint32_t count = ir_values_count(variable->value);
+        return count == 1 ? STR("one value") : arena_format(arena, "one of %u values", count);
+    }
+    if (number_parse(variable->value, &number) != NUMBER_OK)
+        return arena_format(arena, "from 0, less than %.*s", STR_ARG(variable->value));
+    return number < 1   ? STR("no value")
+           : number < 2 ? STR("0")
+                        : arena_format(arena, "0 to %.0f", number - 1);
+}
+
+// Whether it is the value of something whose key is a name: of a parameter, of a variable.
+static bool is_of_named(const struct request *request, str text, str key) {
+    if (key.len == 0)
+        return false;
+    const struct schema_element *named =
+        context_at(request->document->path, text, (size_t)(key.ptr - text.ptr)).named;
+    for (uint32_t i = 0; named && i < named->row_count; i++)
+        if (named->rows[i].short_form &&
+            (schema_has_values(&named->rows[i]) || schema_may_compute(&named->rows[i])))
+            return true;
+    return false;
+}
+
+// Where the text of the variable begins that is being typed; the text's end: none is.
+static const char *typed_variable(const struct completing *c, str text) {
+    const char *at = c->typed.key.ptr;
+    const struct context context =
+        context_at(c->request->document->path, text, at ? (size_t)(at - text.ptr) : c->typed.begin);
+    if (context.named == &SCHEMA_VARIABLE || (context.schema == &SCHEMA_VARIABLE && !context.is_xml))
+        return at;
+    for (; context.schema == &SCHEMA_VARIABLE && at > text.ptr; at--)
+        if (*at == '<')
+            return at;
+    return text.ptr + text.len;
+}
+
+// Those of the entry; in what makes a variable, those before it.
+static void offer_variables(struct completing *c) {
+    struct arena *arena = c->request->arena;
+    struct context_variable variables[IR_VARIABLES_MOST];
+    const str text = document_text(c->request->document);
+    const uint32_t count = context_variables(c->request->document->path, text, c->typed.begin, variables);
+    const char *typed = count ? typed_variable(c, text) : NULL;
+    for (uint32_t i = 0; i < count && variables[i].name.ptr < typed; i++) {
+        const struct context_variable *v = &variables[i];
+        json_t *item = offer_text(c, v->name, COMPLETION_VARIABLE, SCHEMA_VARIABLE.doc, v->name);
+        const str detail = detail_of(arena, v);
+        if (item && detail.len)
+            json_object_set_new(item, "detail", position_string(detail));
+    }
+}
+
+// Variables, parameters and the language's own words, in the place of the name that is typed.
 static void offer_expression(struct completing *c) {
-    const struct ir_scene *scene = c->request->session->scene;
+    const struct ir_scene *scene = locate_scene(c->request->session);
     const json_t *name;
     size_t index;
+    offer_variables(c);
     json_array_foreach(json_object_get(c->request->scene->names, SCHEMA_PARAMETER.name), index, name)
         offer(c, str_from(json_string_value(name)), COMPLETION_VARIABLE, SCHEMA_PARAMETER.doc);
     for (uint32_t i = 0; scene && i < scene->parameters.count; i++)
@@ -259,6 +332,18 @@ static str sample_of(struct completing *c, const struct context *context, uint32
     return text;
 }
 
+// A first entry of a map whose entries can be short: "i: 5". Empty: it is another map.
+static str entry_of(struct completing *c, const struct schema_row *row) {
+    const struct schema_row *key = NULL, *value = NULL;
+    for (uint32_t i = 0; row->many == SCHEMA_NAMED_MAP && i < row->child->row_count; i++) {
+        const struct schema_row *of_child = &row->child->rows[i];
+        key = of_child->key ? of_child : key;
+        value = !value && of_child->short_form ? of_child : value;
+    }
+    return key && value ? arena_format(c->request->arena, "${1:%s: %s}", key->example, value->example)
+                        : STR("");
+}
+
 // What follows the name, with the place of the cursor; nothing if it is written already.
 static str value_of(struct completing *c, const struct context *context, uint32_t row, bool single) {
     struct arena *arena = c->request->arena;
@@ -268,6 +353,11 @@ static str value_of(struct completing *c, const struct context *context, uint32_
     const char *at = memchr(sample.ptr, mark, sample.len);
     bool many = r->many != SCHEMA_ONE && !single;
     bool element = (r->kind == SCHEMA_ELEMENT && schema_short_row(r->child) < 0) || (r->single && single);
+    const str entry = single ? STR("") : entry_of(c, r);
+    if (!context->is_xml && entry.len)
+        return arena_format(arena,
+                            context->is_flow || context->schema != &SCHEMA_SCENE ? ": {%.*s}" : ":\n  %.*s",
+                            STR_ARG(entry));
     if (!context->is_xml && (many || element)) {
         if (context->is_flow)
             return many && r->many == SCHEMA_SEQUENCE ? STR(": [{$0}]") : STR(": {$0}");
@@ -277,8 +367,11 @@ static str value_of(struct completing *c, const struct context *context, uint32_
         return context->is_xml ? STR("=\"$0\"") : STR(": $0");
     str value = str_trim(str_slice(sample, (size_t)(at - sample.ptr) + 1, sample.len));
     if (context->is_xml)
-        return arena_format(arena, "=\"${1:%.*s}\"",
-                            STR_ARG(escaped(arena, str_slice(value, 1, value.len - 1))));
+        value = str_slice(value, 1, value.len - 1);
+    if (r->kind == SCHEMA_BOOLEAN && r->example && expression_is_meant(str_from(r->example)))
+        value = str_from(r->example);
+    if (context->is_xml)
+        return arena_format(arena, "=\"${1:%.*s}\"", STR_ARG(escaped(arena, value)));
     return arena_format(arena, ": ${1:%.*s}", STR_ARG(escaped(arena, value)));
 }
 
@@ -331,14 +424,15 @@ static bool is_followed(str text, size_t at, bool is_xml) {
 }
 
 // Whether the place is in a value that may be an expression; then only the name before it is the word.
-static bool in_expression_at(str text, size_t offset, struct typed *typed) {
+static bool in_expression_at(const struct request *request, str text, size_t offset, struct typed *typed) {
     size_t begin = offset;
     while (begin > typed->begin &&
            expression_name_length(str_slice(text, begin - 1, offset)) == offset - begin + 1)
         begin--;
     const bool is_alone = typed->key.len > 0 && begin == typed->begin;
-    const str key = is_alone ? typed->key : key_of_value(text, begin);
-    if (!is_of_expression(key))
+    const str key =
+        is_alone ? typed->key : key_of_value(text, begin, reader_is_xml(request->document->path, text));
+    if (!is_of_expression(key) && !is_of_named(request, text, key))
         return false;
     *typed = (struct typed){key, str_slice(text, begin, offset), begin};
     return true;
@@ -347,7 +441,7 @@ static bool in_expression_at(str text, size_t offset, struct typed *typed) {
 json_t *server_completion(const struct request *request) {
     str text = document_text(request->document);
     struct typed typed = typed_at(text, request->offset);
-    const bool in_expression = in_expression_at(text, request->offset, &typed);
+    const bool in_expression = in_expression_at(request, text, request->offset, &typed);
     struct completing completing = {.request = request,
                                     .typed = typed,
                                     .range = position_range_once(text, request->server->encoding, typed.begin,

@@ -127,7 +127,7 @@ static struct path yaml_path(str text, size_t offset, bool *is_flow) {
     return path;
 }
 
-static const struct schema_element *of_yaml(const struct path *path) {
+static const struct schema_element *of_yaml(const struct path *path, const struct schema_element **name_of) {
     const struct schema_element *schema = &SCHEMA_SCENE;
     for (int i = path->count - 1; i >= 0; i--) {
         bool single = false;
@@ -138,8 +138,10 @@ static const struct schema_element *of_yaml(const struct path *path) {
             return NULL;
         bool named = schema->rows[row].many == SCHEMA_NAMED_MAP && !single;
         schema = schema->rows[row].child;
-        if (named && --i < 0)
+        if (named && --i < 0) {
+            *name_of = schema;
             return NULL; // a name is typed
+        }
     }
     return schema;
 }
@@ -214,7 +216,7 @@ struct context context_at(str path, str text, size_t offset) {
             context.schema = of_xml(&open);
     } else {
         struct path keys = yaml_path(text, offset, &context.is_flow);
-        context.schema = of_yaml(&keys);
+        context.schema = of_yaml(&keys, &context.named);
     }
     return context;
 }

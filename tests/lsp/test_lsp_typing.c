@@ -147,6 +147,90 @@ static void completes_expressions(void **state) {
         expect_typing(client, &typings[i], (int)i + 2);
 }
 
+// Those of the entry, however torn its text is.
+static void completes_variables(void **state) {
+    static const struct typing typings[] = {
+        {"main.yaml", HEAD "{for: {i: 12}, center: [|", "i", "i", "radius"},
+        {"main.yaml", HEAD "{for: {i: 12}, center: [i, |", "height", "height", "radius"},
+        {"main.yaml", HEAD "{for: {i: 12}, radius: 1}\n  - {for: {k: 2}, radius: |, center: [0, 0, 0]}\n",
+         "k", "k", "i"},
+        {"main.yaml", HEAD "{center: [2*|, 0, 0], for: {i: height}}\n", "i", "i", "radius"},
+        {"main.yaml", HEAD "{\"for\": {\"i\": 5}, \"center\": [|", "i", "i", "radius"},
+        {"main.yaml", HEAD "for:\n      i: {count: 12}\n    center:\n      x: |\n  - for: {k: 2}\n", "i", "i",
+         "k"},
+        {"main.yaml", HEAD "center: [i, |\n    radius: 1\n    for:\n      i: 12\n      k:\n        - 2\n",
+         "k", "k", "radius"},
+        {"main.yaml", HEAD "for: {i: 12}\n    material:\n      diffuse_color: [0, |\n", "i", "i", "checker"},
+        {"main.yaml", HEAD "{for: {i: 12}, material: {diffuse_color: hsv(30*|", "i", "i", "checker"},
+        {"main.yaml", HEAD "{for: {i: |", "height", "height", "i"},
+        {"main.yaml", HEAD "{for: {i: 5, k: 5 - |", "i", "i", "k"},
+        {"main.yaml", HEAD "for:\n      i: 5\n      k: 5 - |\n", "i", "i", "k"},
+        {"main.yaml", HEAD "{for: {i: 5, p: [[0, |", "i", "i", "p"},
+        {"main.yaml", HEAD "{for: {i: 5}, if: i < |", "i", "i", "center"},
+        {"main.yaml", HEAD "{for: {i: 5}, if: i != |", "i", "i", "center"},
+        {"main.yaml", HEAD "{for: {i: 5}, radius: 1}\ncameras: [{fov: |", "height", "height", "i"},
+        {"main.yaml",
+         HEAD "{for: {gr\xc3\xb6\xc3\x9f"
+              "e: 5}, radius: |",
+         "gr\xc3\xb6\xc3\x9f"
+         "e",
+         "gr\xc3\xb6\xc3\x9f"
+         "e",
+         "i"},
+        {"main.yaml", HEAD "{fo|", "for", "for: {${1:i: 5}}", "fov"},
+        {"main.yaml", HEAD "i|", "if", "if: ${1:i != 3}", "fov"},
+        {"main.yaml", "glint: 1\nparameters: {height: 3, top: 2*|", "height", "height", "glint"},
+        {"main.xml", "<Scene glint=\"1\"><Sphere radius=\"|\"><For name=\"i\" count=\"5\"/></Sphere></Scene>",
+         "i", "i", "center"},
+        {"main.xml", "<Scene glint=\"1\"><Sphere radius=\"|\n<For name=\"i\" count=\"5\"/></Sphere>", "i",
+         "i", "center"},
+        {"main.xml",
+         "<Scene glint=\"1\"><Sphere><For name=\"i\" values=\"1, 2\"/></Sphere><Sphere if=\"3 > |\"><For "
+         "name=\"k\"",
+         "frame", "frame", "i"},
+        {"main.xml",
+         "<Scene glint=\"1\"><Sphere><For name=\"i\" count=\"5\"/><Material><DiffuseColor r=\"i/5\" g=\"|",
+         "i", "i", "material"},
+        {"main.xml", "<Scene glint=\"1\"><Sphere><For name=\"i\" count=\"5\"/><For name=\"k\" values=\"1, |",
+         "i", "i", "k"},
+        {"main.xml", "<Scene glint=\"1\"><Sphere radius=\"1\" ma|", "material", "material=\"${1:glass}\"",
+         "sin"},
+        {"main.xml", "<Scene glint=\"1\"><Sphere><F|", "For", "For name=\"i\" count=\"5\"/>", "for"},
+    };
+    struct lsp_client *client = *state;
+    initialize_richly(client);
+    client_open(client, "main.yaml", HEAD "{center: [0, 0, 0], radius: 1}\n");
+    client_open(client, "main.xml", "<Scene glint=\"1\"/>");
+    for (size_t i = 0; i < sizeof typings / sizeof *typings; i++)
+        expect_typing(client, &typings[i], (int)i + 2);
+}
+
+// What an item says beside its name.
+static void expect_detail(struct lsp_client *client, int version, const char *entry, const char *wanted) {
+    char text[256];
+    snprintf(text, sizeof text, HEAD "{for: {%s}, radius: ", entry);
+    change(client, "main.yaml", version, text);
+    json_t *list =
+        client_request(client, "textDocument/completion",
+                       client_at(client, "main.yaml", 3, (int)strlen(text) - (int)strlen(HEAD) + 4), NULL);
+    const json_t *item = json_array_get(json_object_get(list, "items"), 0);
+    assert_string_equal(client_text(item, "label"), "i");
+    assert_string_equal(client_text(item, "detail"), wanted);
+    json_decref(list);
+}
+
+static void tells_what_variables_are(void **state) {
+    struct lsp_client *client = *state;
+    initialize_richly(client);
+    client_open(client, "main.yaml", HEAD "{center: [0, 0, 0], radius: 1}\n");
+    expect_detail(client, 2, "i: 12", "0 to 11");
+    expect_detail(client, 3, "i: 1", "0");
+    expect_detail(client, 4, "i: 0", "no value");
+    expect_detail(client, 5, "i: 2*height", "from 0, less than 2*height");
+    expect_detail(client, 6, "i: [[0, 0, 1], [max(1, 2), 0, 1]]", "one of 2 values");
+    expect_detail(client, 7, "i: {values: [7]}", "one value");
+}
+
 // A client without snippets gets no places to fill in.
 static void completes_attributes_without_snippets(void **state) {
     static const struct typing plain[] = {
@@ -241,6 +325,8 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(completes_attributes, start, stop),
         cmocka_unit_test_setup_teardown(completes_expressions, start, stop),
+        cmocka_unit_test_setup_teardown(completes_variables, start, stop),
+        cmocka_unit_test_setup_teardown(tells_what_variables_are, start, stop),
         cmocka_unit_test_setup_teardown(completes_attributes_without_snippets, start, stop),
         cmocka_unit_test_setup_teardown(explains_in_markdown, start, stop),
         cmocka_unit_test_setup_teardown(shows_colours_and_takes_them, start, stop),
