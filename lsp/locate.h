@@ -95,8 +95,8 @@ void locate_print_variable(const struct session *session, const struct located_s
 bool locate_is_of_copies(const struct schema_row *row);
 // The number of copies that an entry makes.
 uint32_t locate_copies(const struct session *session, const struct located_scope *scope);
-// Appends the value at a place, or the values in all copies: "3", "0.2 to 2.4 in 12 copies". false: what is
-// there is not computed, or has no value.
+// Appends what is computed at a place, also in all copies: "center.x = 3", "radius = 0.2 to 2.4 in 12
+// copies". false: what is there is not computed, or has no value.
 bool locate_print_value(const struct session *session, const struct located *at, struct arena *arena,
                         struct strbuf *out);
 

@@ -183,6 +183,10 @@ bool locate_print_value(const struct session *session, const struct located *at,
         return false;
     const struct located_scope scope = locate_scope(session, at->element, arena);
     const uint32_t copies = scope.list ? locate_copies(session, &scope) : 1;
+    strbuf_cstr(out, formula->row->name);
+    if (formula->component != IR_FORMULA_WHOLE)
+        strbuf_format(out, ".%s", schema_components(formula->row->kind)[formula->component]);
+    strbuf_cstr(out, " = ");
     print_values(&values, out);
     if (copies > 1)
         strbuf_format(out, " in %u copies", copies);

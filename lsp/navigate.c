@@ -299,7 +299,7 @@ static void add_value(const struct request *request, const struct located *at, s
             strbuf_format(out, "%.*s = %.*s\n\n", STR_ARG(ir_walk_key(at->schema, at->element)),
                           STR_ARG(strbuf_view(&value)));
     } else if (locate_print_value(request->session, at, request->arena, &value)) {
-        strbuf_format(out, "%s = %.*s\n\n", at->row->name, STR_ARG(strbuf_view(&value)));
+        strbuf_format(out, "%.*s\n\n", STR_ARG(strbuf_view(&value)));
     }
     strbuf_finish(&value);
 }

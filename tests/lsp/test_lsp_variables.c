@@ -138,13 +138,13 @@ static void explains_variables(void **state) {
         {"|0.1 + i/10", "radius = 0.1 to 0.3"},
         {"center: |p,", "variable 'p' = one of 2 values: [0, 0, 1], [wide, 0, 1], of main.yaml:6"},
         {"center: |p,", "center = [0, 0, 1], [2, 0, 1] in 6 copies"},
-        {"[|i/4", "color = 0 to 0.5 in 6 copies"},
+        {"[|i/4", "color.r = 0 to 0.5 in 6 copies"},
         {"!|= 3", "makes 6 copies"},
         {"f|or: {i", "makes 6 copies"},
         {"|j: 3", "variable 'j' = 0 to 2, of main.yaml:9, which makes 6 copies"},
         {"j: 3| - i", "j = 0 to 2"},
         {"3 - |i", "variable 'i' = 0 to 2, of main.yaml:8"},
-        {"4 +| j", "center = 4 to 6 in 6 copies"},
+        {"4 +| j", "center.y = 4 to 6 in 6 copies"},
         {"[|wide", "parameter 'wide' = 2, of main.yaml:4"},
         {"{|wide", "parameter 'wide' = 2, of main.yaml:4"},
     };
@@ -155,7 +155,7 @@ static void explains_variables(void **state) {
     expect_hover(client, "part.xml", PART, "+ |i/100",
                  "variable 'i' = 0 to 2, of part.xml:2, which makes 3 copies");
     expect_hover(client, "part.xml", PART, "\"|i\" count", "variable 'i' = 0 to 2");
-    expect_hover(client, "part.xml", PART, "y=\"wide| -", "center = -7 in 3 copies");
+    expect_hover(client, "part.xml", PART, "y=\"wide| -", "center.y = -7 in 3 copies");
 }
 
 // Each entry has its own, whatever their names.
