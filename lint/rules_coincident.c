@@ -10,6 +10,7 @@
 
 #include "grammar/ir.h"
 #include "grammar/ir_copies.h"
+#include "grammar/ir_walk.h"
 
 #include <stdlib.h>
 #include <string.h>
