@@ -119,7 +119,8 @@ static const char GRID[] =
     "spheres:\n"
     "  - {name: a, for: {i: n, p: [[0, 0, 1], [wide, 0, 1]]}, if: i != 3, center: p, radius: 0.1 + i/10, "
     "material: {diffuse_color: [i/4, 0, 0]}}\n"
-    "  - for:\n      i: 3\n      j: 3 - i # not i\n    center: [i, 4 + j, 0]\n    radius: 0.2\n";
+    "  - for:\n      i: 3\n      j: 3 - i # not i\n    center: [i, 4 + j, 0]\n    radius: 0.2\n"
+    "  - {for: {k: [9, wide + 6], s: 2}, center: [0, k, 9 + s], radius: 0.1}\n";
 static const char PART[] = "<Scene glint=\"1\">\n"
                            "  <Sphere radius=\"0.1 + i/100\" if=\"i &lt; 3\"><For name=\"i\" count=\"5\"/>"
                            "<Center x=\"3*i\" y=\"wide - 9\" z=\"0\"/></Sphere>\n</Scene>\n";
@@ -147,6 +148,7 @@ static void explains_variables(void **state) {
         {"4 +| j", "center.y = 4 to 6 in 6 copies"},
         {"[|wide", "parameter 'wide' = 2, of main.yaml:4"},
         {"{|wide", "parameter 'wide' = 2, of main.yaml:4"},
+        {"|k: [9", "variable 'k' = one of 2 values: 9, wide + 6, of main.yaml:12, which makes 4 copies"},
     };
     open_grid(client);
     for (size_t i = 0; i < sizeof hovers / sizeof *hovers; i++)
