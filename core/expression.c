@@ -559,7 +559,7 @@ static bool conditional(struct scan *s, struct part *out) {
     return true;
 }
 
-// Something follows that is no operator here, though it may be one elsewhere.
+// Something follows that is not an operator here, though it may be one elsewhere.
 static bool no_operator(struct scan *s) {
     const str word = peek_name(s);
     const bool is_product = word.len && s->at > 0 && char_is_digit(s->text.ptr[s->at - 1]);

@@ -94,23 +94,24 @@ static int compare_spans(const void *a, const void *b) {
 
 void diag_repeats(struct diag_sink *sink, span at) {
     if (sink->repeated.count == sink->repeated.capacity) {
-        const uint32_t capacity = sink->repeated.capacity ? sink->repeated.capacity * 2 : 16;
+        const size_t capacity = sink->repeated.capacity ? heap_times(2, sink->repeated.capacity) : 16;
         span *items = arena_try_alloc_array(&sink->arena, capacity, sizeof *items);
         if (!items)
             return;
         if (sink->repeated.count)
             memcpy(items, sink->repeated.items, sink->repeated.count * sizeof *items);
         sink->repeated.items = items;
-        sink->repeated.capacity = capacity;
+        sink->repeated.capacity = (uint32_t)capacity;
     }
-    uint32_t place = sink->repeated.count++;
-    for (; place > 0 && compare_spans(&sink->repeated.items[place - 1], &at) > 0; place--)
-        sink->repeated.items[place] = sink->repeated.items[place - 1];
-    sink->repeated.items[place] = at;
+    sink->repeated.items[sink->repeated.count++] = at;
+    sink->repeated.is_sorted = false;
 }
 
 // The one like it, if there are several of what it is about.
 static struct diag *find_repeat(struct diag_sink *sink, diag_code code, span at) {
+    if (!sink->repeated.is_sorted)
+        qsort(sink->repeated.items, sink->repeated.count, sizeof *sink->repeated.items, compare_spans);
+    sink->repeated.is_sorted = true;
     uint32_t low = 0, high = sink->repeated.count;
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;

@@ -82,7 +82,8 @@ struct diag_sink {
     struct {
         span *items;
         uint32_t count, capacity;
-    } repeated; // of which there are copies: diag_repeats
+        bool is_sorted;
+    } repeated;           // of which there are copies: diag_repeats
     uint64_t search_left; // what searching for suggestions may still cost (core/nearest.h)
     struct diag spare;    // stands for a diagnostic that was dropped
     bool last_kept;       // whether notes, help and fix have a diagnostic to belong to
@@ -102,8 +103,8 @@ void diag_sink_keep(struct diag_sink *sink, uint32_t most);
 // longer than 2000 bytes are cut.
 struct diag *diag_add(struct diag_sink *sink, diag_code code, span at, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
-// There are several of what is at this place in a file: what is said of it by one code at one place is kept once,
-// and the others counted there. After all that are before it.
+// There are several of what is at this place in a file: what is said of it by one code at one place is kept
+// once, and the others counted there. After all that are before it.
 void diag_repeats(struct diag_sink *sink, span at);
 // Whether diag_add would count only.
 bool diag_is_repeat(struct diag_sink *sink, diag_code code, span at);

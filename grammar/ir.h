@@ -181,7 +181,7 @@ struct ir_light {
     str name;
     struct ir_variables copies; // one for each of their values; none: the entry itself
     bool condition;             // whether there is one
-    unsigned kind; // ir_light_kind
+    unsigned kind;              // ir_light_kind
     vec3 position, direction;
     struct ir_panel rectangle;
     double radius; // for one with a position; 0: a point
@@ -262,8 +262,8 @@ struct ir_rectangle {
 struct ir_box {
     struct ir_head head;
     str name;
-    struct ir_variables copies; // one for each of their values; none: the entry itself
-    bool condition;             // whether there is one
+    struct ir_variables copies;  // one for each of their values; none: the entry itself
+    bool condition;              // whether there is one
     vec3 center, size, rotation; // degrees, as a model's
     struct ir_reference material;
 };
@@ -273,7 +273,7 @@ struct ir_cylinder {
     str name;
     struct ir_variables copies; // one for each of their values; none: the entry itself
     bool condition;             // whether there is one
-    vec3 from, to; // middles of its ends
+    vec3 from, to;              // middles of its ends
     double radius;
     struct ir_reference material;
 };
@@ -283,7 +283,7 @@ struct ir_cone {
     str name;
     struct ir_variables copies; // one for each of their values; none: the entry itself
     bool condition;             // whether there is one
-    vec3 from, to; // middles of its ends
+    vec3 from, to;              // middles of its ends
     double radius_from, radius_to;
     struct ir_reference material;
 };
@@ -405,8 +405,8 @@ struct ir_model {
     str name;
     struct ir_variables copies; // one for each of their values; none: the entry itself
     bool condition;             // whether there is one
-    struct ir_reference mesh; // without an index the path of a file
-    str part;                 // of a mesh file that has several; empty: all of it
+    struct ir_reference mesh;   // without an index the path of a file
+    str part;                   // of a mesh file that has several; empty: all of it
     struct ir_reference material;
     struct ir_map_entries material_map;
     bool smooth;

@@ -1,6 +1,6 @@
 // Text of one to four values, SCHEMA_TEXT_VALUES: "30", "0, 1, 6", "#c08050", "4*cos(90*time), 1, 0"; or of a
-// list of any length, SCHEMA_TEXT_LIST: "-4, 3", "[0, 0, 1], [2, 0, 1]". Commas inside parentheses belong to an
-// expression, those inside brackets to a vector.
+// list of any length, SCHEMA_TEXT_LIST: "-4, 3", "[0, 0, 1], [2, 0, 1]". Commas inside parentheses belong to
+// an expression, those inside brackets to a vector.
 //
 // Thread safety: pure except for `out`.
 #ifndef GLINT_GRAMMAR_IR_VALUES_H

@@ -10,15 +10,15 @@
 #include "scene/media.h"
 
 struct where {
-    const char *kind;          // as the language calls it: "sphere"
-    const char *list;          // of the scene, that holds it: "spheres"
-    uint32_t index;            // in that list
+    const char *kind;               // as the language calls it: "sphere"
+    const char *list;               // of the scene, that holds it: "spheres"
+    uint32_t index;                 // in that list
     const struct ir_copies *copies; // of the scene; NULL: there are none
     const struct schema_row *row;   // the list
-    str name;                  // empty: it has none
-    span at;                   // in the scene
-    uint32_t material;         // in assets.materials
-    str material_name;         // empty: inline, or the default
+    str name;                       // empty: it has none
+    span at;                        // in the scene
+    uint32_t material;              // in assets.materials
+    str material_name;              // empty: inline, or the default
     const char *material_kind; // "material", "inline material", "default material", "material of the mesh"
     span material_at;          // in the scene; SPAN_NONE if it is not written there
     str mesh;                  // path; empty: no mesh

@@ -10,10 +10,11 @@
 // 4 merge     There is one scene. Lists are joined; for elements that occur once, the including file's
 //             attributes win. The IR of each file stays in origin.files.
 // 5 override  The --set options are applied, in their order, and bound by the same rules.
-// 6 animate   Parameters and expressions have their values. Where a frame of the animation is asked for, the
-//             values are those of that frame, and the scene has no animation; else all of its frames were
-//             looked at.
-// 7 names     No two things share a name, and each reference has its index; else it is reported.
+// 6 names     No two things share a name, and each reference has its index; else it is reported.
+// 7 animate   Parameters and expressions have their values, and what 'for' and 'if' make of an entry stands
+// in its
+//             list. Where a frame of the animation is asked for, the values are those of that frame, and the
+//             scene has no animation; else all of its frames were looked at.
 // 8 compact   Anonymous elements that no reference uses are gone. The IR no longer changes.
 // 9 validate  The rules that a table cannot say hold; else it is reported.
 // Diagnostics about an included file then say where it is included. parser_load_file runs the first two.

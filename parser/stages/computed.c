@@ -66,7 +66,7 @@ bool computed_value(struct evaluation *e, const struct computed *c, span at, dou
     for (uint32_t i = 0; i < c->part_count; i++) {
         double part[EXPRESSION_WIDTH];
         if (!expression_at(&c->parts[i], &e->at, part, &fault)) {
-            evaluation_fault(e, DIAG_EXPRESSION, c->texts[i], at, evaluation_suffix(e), &fault);
+            evaluation_fault(e, DIAG_EXPRESSION, c->texts[i], at, true, &fault);
             return false;
         }
         if (c->part_count == 1)

@@ -21,14 +21,6 @@ static uint32_t number_of(const struct schema_row *row) {
     return (uint32_t)(row - SCHEMA_SCENE.rows);
 }
 
-static struct copied_list *list_of(const struct evaluation *e, const struct schema_row *row) {
-    return &e->copying->lists[number_of(row)];
-}
-
-bool copies_may(const struct schema_row *row) {
-    return row->kind == SCHEMA_LIST && schema_find_row(row->child, STR("for")) >= 0;
-}
-
 // The rows of an entry that say what is made of it.
 struct copy_rows {
     const struct schema_row *variables, *condition;
@@ -59,56 +51,6 @@ bool copies_are_written(const struct ir_scene *scene) {
                 return true;
     }
     return false;
-}
-
-// ---- variables in reach
-
-void copies_leave(struct evaluation *e) {
-    e->entry = NULL;
-    e->variable_count = 0;
-}
-
-void copies_enter_again(struct evaluation *e, const struct copy_entry *entry, uint32_t places) {
-    if (!entry) {
-        copies_leave(e);
-        return;
-    }
-    if (e->entry != entry || e->variable_count != entry->variable_count) {
-        e->entry = entry;
-        e->variable_count = entry->variable_count;
-        memcpy(e->variables, entry->types, sizeof e->variables);
-        for (uint32_t i = 0; i < entry->variable_count; i++)
-            e->names[e->count + i] = entry->variables[i].ir->name;
-    }
-    for (uint32_t i = 0; places && i < entry->variable_count; i++)
-        copies_set(e, entry, i, e->copying->places[places + 1 + i]);
-}
-
-bool copies_enter(struct evaluation *e, const struct schema_row *row, uint32_t index) {
-    const struct copied_list *list = e->copying ? list_of(e, row) : NULL;
-    if (!list || (!list->made && !list->is_replaced))
-        return true;
-    copies_leave(e);
-    if (list->made) {
-        const struct ir_copy *copy = &list->made[index];
-        if (list->entries[copy->entry])
-            copies_enter_again(e, list->entries[copy->entry], copy->places);
-        e->places = copy->places;
-        return true;
-    }
-    if (index < list->own)
-        return !list->is_replaced[index];
-    const struct copy_clone *clone = &list->clones[index - list->own];
-    copies_enter_again(e, clone->entry, clone->places);
-    e->places = clone->places;
-    return true;
-}
-
-void copies_print_variables(const struct evaluation *e, struct strbuf *out) {
-    for (uint32_t i = 0; i < e->variable_count; i++) {
-        strbuf_format(out, "%s%.*s = ", i ? ", " : ", with ", STR_ARG(e->names[e->count + i]));
-        expression_print(e->variables[i].type, e->values + (size_t)EXPRESSION_WIDTH * (e->count + i), out);
-    }
 }
 
 // ---- one copy after the other
@@ -288,7 +230,7 @@ static struct copy_entry *new_entry(struct evaluation *e, const struct schema_ro
 // ---- materials and meshes in place
 
 static void list_pool(struct evaluation *e, const struct schema_row *row) {
-    struct copied_list *pool = list_of(e, row);
+    struct copied_list *pool = copies_list(e, row);
     if (pool->is_replaced)
         return;
     pool->own = ir_walk_list(row, e->scene).count;
@@ -304,13 +246,13 @@ static void replace(void *context, struct visit_place place, struct ir_reference
     const struct schema_row *pool = ir_walk_pool(row->child);
     void *item = (void *)ir_walk_referent(e->scene, row, reference);
     list_pool(e, pool);
-    list_of(e, pool)->is_replaced[reference->index] = true;
+    copies_list(e, pool)->is_replaced[reference->index] = true;
     if (e->entry && e->entry->is_good)
         evaluate_types(e, pool, item);
 }
 
 static uint32_t push_clone(struct evaluation *e, const struct schema_row *row, const void *item) {
-    struct copied_list *pool = list_of(e, row);
+    struct copied_list *pool = copies_list(e, row);
     struct arena *arena = e->loader->input->arena;
     void *copy = arena_alloc(arena, row->child->size);
     memcpy(copy, item, row->child->size);
@@ -334,7 +276,7 @@ static void clone_in_place(void *context, struct visit_place place, struct ir_re
     if (!used)
         return;
     list_pool(e, pool);
-    list_of(e, pool)->is_replaced[reference->index] = true;
+    copies_list(e, pool)->is_replaced[reference->index] = true;
     uint32_t key[IR_VARIABLES_MOST + 2] = {number_of(pool), reference->index};
     for (uint32_t i = 0; i < e->entry->variable_count; i++)
         key[2 + i] = used >> i & 1 ? e->copying->places[e->places + 1 + i] : 0;
@@ -405,7 +347,7 @@ static void fill(struct evaluation *e, const struct schema_row *row, struct copi
 static void make_list(struct evaluation *e, const struct schema_row *row) {
     const struct copy_rows rows = rows_of(row->child);
     const struct ir_any_list written = ir_walk_list(row, e->scene);
-    struct copied_list *list = list_of(e, row);
+    struct copied_list *list = copies_list(e, row);
     uint32_t at = 0;
     while (at < written.count && !is_written(&rows, ir_walk_item(row, written, at)))
         at++;
@@ -474,20 +416,4 @@ void copies_make(struct evaluation *e) {
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++)
         copies->lists[i] = e->copying->lists[i].made;
     e->loader->output->origin.copies = copies;
-}
-
-// ---- for tracks
-
-uint32_t copies_of(const struct evaluation *e, const struct schema_row *row, uint32_t entry,
-                   uint32_t *count) {
-    const struct copied_list *list = e && e->copying ? list_of(e, row) : NULL;
-    *count = 1;
-    if (!list || !list->made)
-        return entry;
-    *count = list->first[entry + 1] - list->first[entry];
-    return list->first[entry];
-}
-
-struct ir_scene *copies_written(const struct evaluation *e) {
-    return e->copying ? &e->copying->written : e->scene;
 }

@@ -46,7 +46,6 @@ struct copied_list {
     // of materials and meshes, some of which are in place in an entry with variables
     uint32_t own;              // so many are as written
     bool *is_replaced;         // by clones
-    uint32_t *moved;           // after copies_finish: the new places of all
     struct copy_clone *clones; // they follow those of their own
     uint32_t clone_count, clone_capacity;
 };
@@ -61,17 +60,16 @@ struct copying {
     struct str_map cloned; // by what is cloned and the places that it depends on: 1 + index
 };
 
-// copies.c
-// Whether entries of a list can have copies.
-bool copies_may(const struct schema_row *list);
+// copies_reach.c
+struct copied_list *copies_list(const struct evaluation *e, const struct schema_row *row);
+// Gives a variable one of its values.
+bool copies_set(struct evaluation *e, const struct copy_entry *entry, uint32_t variable, uint32_t place);
 
 // copies_variables.c
 // Reads the variables and the condition of an entry. false: one of them is wrong (reported, or known).
 bool copies_read_entry(struct evaluation *e, struct copy_entry *entry);
 // The number of values of a variable, for the values of those before it. false: reported.
 bool copies_size(struct evaluation *e, const struct copy_entry *entry, uint32_t variable, uint32_t *size);
-// Gives a variable one of its values.
-bool copies_set(struct evaluation *e, const struct copy_entry *entry, uint32_t variable, uint32_t place);
 // Bit i: an expression in an element has variable i in it.
 uint32_t copies_used(const struct evaluation *e, const struct copy_entry *entry,
                      const struct schema_element *schema, const void *memory);

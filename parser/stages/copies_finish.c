@@ -12,53 +12,17 @@ static struct diag_sink *sink(const struct evaluation *e) {
     return e->loader->input->sink;
 }
 
-static void forget_formulas(const struct evaluation *e, const struct schema_row *row,
-                            const struct copied_list *list) {
-    const struct ir_any_list items = ir_walk_list(row, e->scene);
-    for (uint32_t k = 0; list->made && k < items.count; k++)
-        if (list->made[k].places)
-            ir_formulas_forget(row->child, ir_walk_item(row, items, k));
-    for (uint32_t k = list->own; list->is_replaced && k < items.count; k++)
-        ir_formulas_forget(row->child, ir_walk_item(row, items, k));
-}
-
-// Takes out of the pool what clones have replaced.
-static void remove_replaced(const struct evaluation *e, const struct schema_row *row,
-                            struct copied_list *pool) {
-    struct ir_any_list items = ir_walk_list(row, e->scene);
-    uint32_t kept = 0;
-    pool->moved = ARENA_ARRAY(&e->loader->scratch, uint32_t, (size_t)items.count + 1);
-    for (uint32_t k = 0; k < items.count; k++) {
-        pool->moved[k] = kept;
-        if (k < pool->own && pool->is_replaced[k])
-            continue;
-        if (kept < k)
-            memcpy(ir_walk_item(row, items, kept), ir_walk_item(row, items, k), row->child->size);
-        kept++;
-    }
-    items.count = kept;
-    memcpy(schema_field(row, e->scene), &items, sizeof items);
-}
-
-static void renumber(void *context, struct visit_place place, struct ir_reference *reference) {
-    const struct evaluation *e = context;
-    const struct schema_row *pool = ir_walk_pool(place.schema->rows[place.row].child);
-    const uint32_t *moved = e->copying->lists[pool - SCHEMA_SCENE.rows].moved;
-    if (moved && reference->index != IR_NO_INDEX)
-        reference->index = moved[reference->index];
-}
-
 void copies_finish(struct evaluation *e) {
-    bool any = false;
     for (uint32_t i = 0; e->copying && i < SCHEMA_SCENE.row_count; i++) {
-        struct copied_list *list = &e->copying->lists[i];
-        forget_formulas(e, &SCHEMA_SCENE.rows[i], list);
-        if (list->is_replaced)
-            remove_replaced(e, &SCHEMA_SCENE.rows[i], list);
-        any |= list->is_replaced != NULL;
+        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
+        const struct copied_list *list = &e->copying->lists[i];
+        const struct ir_any_list items = ir_walk_list(row, e->scene);
+        for (uint32_t k = 0; list->made && k < items.count; k++)
+            if (list->made[k].places)
+                ir_formulas_forget(row->child, ir_walk_item(row, items, k));
+        for (uint32_t k = list->own; list->is_replaced && k < items.count; k++)
+            ir_formulas_forget(row->child, ir_walk_item(row, items, k));
     }
-    if (any)
-        visit_references(&SCHEMA_SCENE, e->scene, renumber, e);
 }
 
 static void tell_unused(const struct evaluation *e, const struct copy_entry *entry) {
@@ -83,37 +47,6 @@ void copies_tell_unused(const struct evaluation *e) {
             if (list->entries[k] && list->entries[k]->is_good && list->entries[k]->count > 1)
                 tell_unused(e, list->entries[k]);
     }
-}
-
-// ---- names that are not in reach
-
-const char *copies_help(struct evaluation *e, str name) {
-    for (uint32_t i = e->variable_count; e->entry && i < e->entry->variable_count; i++)
-        if (e->entry->variables[i].ir && str_equal(e->entry->variables[i].ir->name, name))
-            return "a variable of 'for' can use those before it, not those after it: exchange them";
-    if (!e->has_variables_named)
-        str_map_init(&e->variables_named, &e->loader->scratch);
-    for (uint32_t i = 0; !e->has_variables_named && i < SCHEMA_SCENE.row_count; i++) {
-        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
-        const struct ir_any_list list = ir_walk_list(row, copies_written(e));
-        for (uint32_t k = 0; copies_may(row) && k < list.count; k++) {
-            const struct schema_row *variables = &row->child->rows[schema_find_row(row->child, STR("for"))];
-            const struct ir_any_list of_entry = ir_walk_list(variables, ir_walk_item(row, list, k));
-            for (uint32_t v = 0; v < of_entry.count; v++)
-                *str_map_at(&e->variables_named, ((const struct ir_variable *)of_entry.items)[v].name) = 1;
-        }
-    }
-    e->has_variables_named = true;
-    return str_map_find(&e->variables_named, name)
-               ? "a variable of 'for' is known in its entry, and in what is written in place there"
-               : NULL;
-}
-
-bool copies_are_three(const struct evaluation *e, str name) {
-    for (uint32_t i = 0; e->entry && i < e->variable_count; i++)
-        if (str_equal(e->names[e->count + i], name))
-            return e->entry->variables[i].is_list && e->entry->variables[i].value_count == 3;
-    return false;
 }
 
 // ---- what cameras are focused on

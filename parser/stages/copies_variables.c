@@ -185,22 +185,13 @@ bool copies_size(struct evaluation *e, const struct copy_entry *entry, uint32_t 
         return true;
     }
     if (!expression_at(&v->expression, &e->at, value, &fault)) {
-        evaluation_fault(e, DIAG_EXPRESSION, v->formula->text, v->formula->at, evaluation_suffix(e), &fault);
+        evaluation_fault(e, DIAG_EXPRESSION, v->formula->text, v->formula->at, true, &fault);
         return false;
     }
     const struct bind_frame frame = frame_of(e, entry, v);
     if (!evaluate_fits(e, bind_subject(&frame, v->formula->row), v->formula, value[0]))
         return false;
     *size = (uint32_t)value[0];
-    return true;
-}
-
-bool copies_set(struct evaluation *e, const struct copy_entry *entry, uint32_t variable, uint32_t place) {
-    const struct entry_variable *v = &entry->variables[variable];
-    double *value = e->values + (size_t)EXPRESSION_WIDTH * (e->count + variable);
-    if (v->is_list)
-        return computed_value(e, &v->values[place], place_of(e, v->ir, "values"), value);
-    *value = place;
     return true;
 }
 

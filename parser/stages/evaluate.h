@@ -98,6 +98,7 @@ struct evaluation {
     } moving; // after evaluate_formulas
 };
 
+// parameters.c
 // Finds the types of all parameters. NULL: nothing is computed in the scene.
 struct evaluation *evaluation_begin(struct loader *loader, struct ir_scene *scene);
 // Gives all parameters their values in a frame. false: one has none (reported, unless quiet).
@@ -106,22 +107,30 @@ bool evaluation_set_frame(struct evaluation *evaluation, double frame, double ti
 void evaluation_stop(struct evaluation *evaluation);
 // Leaves the parameters' values of that frame in the scene.
 void evaluation_keep(const struct evaluation *evaluation);
-// Warns of parameters that nothing uses.
+// Warns of parameters, and of variables of copies, that nothing uses.
 void evaluation_tell_unused(struct evaluation *evaluation);
 
+// scope.c
 // Reads a text as an expression. false: reported with the code.
 bool evaluation_compile(struct evaluation *evaluation, diag_code code, str text, span at,
                         struct expression *expression);
-// The suffix is what the message ends in.
-void evaluation_fault(struct evaluation *evaluation, diag_code code, str text, span at, const char *suffix,
+// `with_values`: the message ends in those of the variables in reach.
+void evaluation_fault(struct evaluation *evaluation, diag_code code, str text, span at, bool with_values,
                       const struct expression_fault *fault);
-
 // Whether a name can be that of a parameter or variable; else it is reported.
 bool evaluation_name_fits(const struct evaluation *evaluation, str name, span at, const char *what);
 // What messages end in: ", with i = 3, in frame 3".
 const char *evaluation_suffix(const struct evaluation *evaluation);
 // A parameter that a text names is used.
 void evaluation_mark_named(struct evaluation *evaluation, str text);
+// What is said of a name that is not in reach, and is a variable of some entry; NULL: it is of none.
+const char *evaluation_help(struct evaluation *evaluation, str name);
+// Whether a name is that of a variable, in reach, with a list of three numbers.
+bool evaluation_is_three(const struct evaluation *evaluation, str name);
+// Whether entries of a list can have copies.
+bool copies_may(const struct schema_row *list);
+// The scene as it is written, for the paths of tracks.
+struct ir_scene *copies_written(const struct evaluation *evaluation);
 
 // computed.c
 // Reads one to three expressions, or #rrggbb; `what` begins messages: "parameter 'tall'". false: reported.
@@ -129,46 +138,44 @@ bool computed_read(struct evaluation *evaluation, str text, str what, span at, s
 // false: there is none in this frame (reported, unless quiet).
 bool computed_value(struct evaluation *evaluation, const struct computed *computed, span at, double *value);
 
-// evaluate.c
-// Puts the values of all formulas of the scene in their places, for the frame that was set.
-void evaluate_formulas(struct evaluation *evaluation);
-// The same for those that move. false: one has no value that fits (reported, unless quiet).
-bool evaluate_moving(struct evaluation *evaluation);
+// formula.c
 // Reads a formula of an element. false: reported.
 bool evaluate_read(struct evaluation *evaluation, const struct bind_frame *frame, const struct ir_formula *f,
                    struct expression *expression);
 // Whether a number fits its row; else it is reported.
 bool evaluate_fits(struct evaluation *evaluation, struct bind_subject subject, const struct ir_formula *f,
                    double value);
+struct bind_subject formula_subject(const struct bind_frame *frame, const struct ir_formula *f);
+
+// evaluate.c
+// Puts the values of all formulas of the scene in their places, for the frame that was set.
+void evaluate_formulas(struct evaluation *evaluation);
+// The same for those that move. false: one has no value that fits (reported, unless quiet).
+bool evaluate_moving(struct evaluation *evaluation);
 // Reads all formulas of an entry that has no copies, so that mistakes in them are found.
 void evaluate_types(struct evaluation *evaluation, const struct schema_row *row, void *entry);
+
+// copies_reach.c
+// The variables of an item of a list of the scene come into reach, with their values. false: the item is not
+// one that has values.
+bool copies_enter(struct evaluation *evaluation, const struct schema_row *row, uint32_t index);
+void copies_enter_again(struct evaluation *evaluation, const struct copy_entry *entry, uint32_t places);
+void copies_leave(struct evaluation *evaluation);
+// The first item of the scene's list that an entry made, as it is numbered there, and how many; an entry that
+// is as written makes one.
+uint32_t copies_of(const struct evaluation *evaluation, const struct schema_row *row, uint32_t entry,
+                   uint32_t *count);
 
 // copies.c
 // Whether any entry of the scene has `for` or `if`.
 bool copies_are_written(const struct ir_scene *scene);
 // Gives the scene's lists what `for` and `if` make of their entries, still with their formulas.
 void copies_make(struct evaluation *evaluation);
-// The variables of an item of a list of the scene come into reach, with their values. false: the item is not
-// one that has values.
-bool copies_enter(struct evaluation *evaluation, const struct schema_row *row, uint32_t index);
-void copies_enter_again(struct evaluation *evaluation, const struct copy_entry *entry, uint32_t places);
-void copies_leave(struct evaluation *evaluation);
-// Appends ", with i = 3, j = 4".
-void copies_print_variables(const struct evaluation *evaluation, struct strbuf *out);
-// The first item of the scene's list that an entry made, as it is numbered there, and how many; an entry that
-// is as written makes one.
-uint32_t copies_of(const struct evaluation *evaluation, const struct schema_row *row, uint32_t entry,
-                   uint32_t *count);
-// The scene as it is written, for the paths of tracks.
-struct ir_scene *copies_written(const struct evaluation *evaluation);
+
+// copies_finish.c
 // Copies have values, and no formulas.
 void copies_finish(struct evaluation *evaluation);
-// Warns of variables that nothing uses.
 void copies_tell_unused(const struct evaluation *evaluation);
-// What is said of a name that is not in reach, and is a variable of some entry; NULL: it is of none.
-const char *copies_help(struct evaluation *evaluation, str name);
-// Whether a name is that of a variable, in reach, with a list of three numbers.
-bool copies_are_three(const struct evaluation *evaluation, str name);
 // Cameras that are focused on a copy.
 void copies_check_focus(struct evaluation *evaluation);
 

@@ -24,73 +24,6 @@ static span place_of(const struct evaluation *e, const struct parameter *p, cons
     return ir_place_value(origin(e), &p->ir->head, &SCHEMA_PARAMETER, row);
 }
 
-const char *evaluation_suffix(const struct evaluation *e) {
-    if (!e->variable_count)
-        return e->suffix;
-    struct strbuf text;
-    strbuf_init(&text);
-    copies_print_variables(e, &text);
-    const char *suffix =
-        arena_format(&e->loader->scratch, "%.*s%s", STR_ARG(strbuf_view(&text)), e->suffix).ptr;
-    strbuf_finish(&text);
-    return suffix;
-}
-
-void evaluation_fault(struct evaluation *e, diag_code code, str text, span at, const char *suffix,
-                      const struct expression_fault *fault) {
-    if (e->is_quiet || diag_is_repeat(sink(e), code, at))
-        return;
-    const struct diag_expression expression = {.text = text,
-                                               .at = at,
-                                               .suffix = suffix,
-                                               .names = e->names,
-                                               .name_count = e->count + e->variable_count};
-    struct expression_fault told = *fault;
-    if (fault->problem == EXPRESSION_UNKNOWN_NUMBER && !fault->help)
-        told.help = copies_help(e, str_slice(text, fault->begin, fault->end));
-    diag_expression_fault(sink(e), e->loader->input->sources, code, &expression, &told);
-}
-
-bool evaluation_compile(struct evaluation *e, diag_code code, str text, span at,
-                        struct expression *expression) {
-    struct expression_fault fault;
-    if (expression_compile(text, &e->scope, &e->loader->scratch, expression, &fault))
-        return true;
-    // A parameter that was reported is known.
-    const uint32_t number = str_map_find(&e->by_name, str_slice(text, fault.begin, fault.end));
-    if (fault.problem != EXPRESSION_UNKNOWN_NUMBER || !number)
-        evaluation_fault(e, code, text, at, e->suffix, &fault);
-    return false;
-}
-
-// ---- names
-
-bool evaluation_name_fits(const struct evaluation *e, str name, span at, const char *what) {
-    if (expression_is_word(name) || str_equal(name, STR("tau"))) {
-        diag_add(sink(e), DIAG_BAD_NAME, at, "'%.*s' is a word of expressions and cannot be a %s's name",
-                 STR_ARG(name), what);
-        diag_help(sink(e), "choose another name");
-        return false;
-    }
-    if (expression_is_free(name))
-        return true;
-    diag_add(sink(e), DIAG_BAD_NAME, at, "'%.*s' cannot be a %s's name",
-             STR_ARG(say_text(&e->loader->scratch, name)), what);
-    str mended = arena_copy(&e->loader->scratch, name);
-    for (size_t i = 0; i < mended.len; i++)
-        if (mended.ptr[i] == '-')
-            ((char *)mended.ptr)[i] = '_';
-    if (!expression_is_free(mended)) {
-        diag_help(
-            sink(e),
-            "a name in expressions has letters, digits and '_', and is not a word such as 'yes' or 'on'");
-        return false;
-    }
-    diag_help(sink(e), "'-' subtracts: write %.*s", STR_ARG(mended));
-    diag_fix(sink(e), false, at, mended);
-    return false;
-}
-
 // ---- types
 
 static bool find(const void *context, str name, struct expression_name *found) {
@@ -325,16 +258,6 @@ void evaluation_keep(const struct evaluation *e) {
         *result = (struct ir_result){.is_known = e->items[i].state == PARAMETER_DONE,
                                      .type = e->items[i].value.type};
         memcpy(result->value, e->values + (size_t)EXPRESSION_WIDTH * i, sizeof result->value);
-    }
-}
-
-void evaluation_mark_named(struct evaluation *e, str text) {
-    size_t at = 0;
-    str name;
-    while (expression_next_name(text, &at, &name)) {
-        const uint32_t number = str_map_find(&e->by_name, name);
-        if (number)
-            e->items[number - 1].is_used = true;
     }
 }
 

@@ -9,8 +9,8 @@
 #include "load/session.h"
 
 struct aov_name {
-    // As the scene has it, else where it stands: "spheres[2]", "spheres[2].material"; of a copy with its places,
-    // "pawn[3]", or in a scene of more than 100 000 bodies that of its entry, "pawn".
+    // As the scene has it, else where it stands: "spheres[2]", "spheres[2].material"; of a copy with its
+    // places, "pawn[3]", or in a scene of more than 100 000 bodies that of its entry, "pawn".
     const char *name;
     const char *kind; // "sphere", "inline material"
     span at;          // SPAN_NONE: not in the scene

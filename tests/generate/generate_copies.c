@@ -90,28 +90,33 @@ static void add_condition(struct generator *g, const struct entry *entry, const 
 
 // ---- values that differ from copy to copy
 
+static str digits_of(struct generator *g, double value) {
+    char digits[NUMBER_FORMAT_MAX];
+    number_format(value, digits);
+    return arena_format(g->arena, "%s", digits);
+}
+
 static void move(struct generator *g, const struct entry *entry, const struct schema_row *row,
                  void *element) {
-    char text[NUMBER_FORMAT_MAX + 16];
     double n[4];
     ir_walk_components(row, schema_field(row, element), n);
-    number_format(n[entry->component], text);
-    strcat(text, " + 0.75*");
-    if (n[entry->component] > -1e6 && n[entry->component] < 1e6)
-        add(g, element, row, (int)entry->component, with_number(g, entry, text, ""));
+    const double value = n[entry->component];
+    const str number = number_of(g, entry), digits = digits_of(g, value);
+    if (value > -1e6 && value < 1e6)
+        add(g, element, row, (int)entry->component,
+            arena_format(g->arena, "%.*s + 0.75*%.*s", STR_ARG(digits), STR_ARG(number)));
 }
 
 static void shrink(struct generator *g, const struct entry *entry, const struct schema_row *row,
                    void *element) {
-    char text[NUMBER_FORMAT_MAX + 16];
     double n[4];
     const uint32_t count = ir_walk_components(row, schema_field(row, element), n);
     const uint32_t which = count ? generate_below(g, count) : 0;
     const double value = count ? n[which] : *(const double *)schema_field(row, element);
-    number_format(value, text);
-    strcat(text, "/(1 + abs(");
+    const str number = number_of(g, entry), digits = digits_of(g, value);
     if (value > 1e-6 || (count && value == 0))
-        add(g, element, row, count ? (int)which : IR_FORMULA_WHOLE, with_number(g, entry, text, "))"));
+        add(g, element, row, count ? (int)which : IR_FORMULA_WHOLE,
+            arena_format(g->arena, "%.*s/(1 + abs(%.*s))", STR_ARG(digits), STR_ARG(number)));
 }
 
 static void vary(struct generator *g, const struct entry *entry, const struct schema_element *schema,

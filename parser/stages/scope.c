@@ -1,0 +1,134 @@
+// Names in reach of expressions, and what is said of an expression that is wrong.
+#include "diag/codes/binding.h"
+#include "diag/diag_expression.h"
+#include "parser/stages/copies.h"
+
+#include "parser/bind/say.h"
+
+static struct diag_sink *sink(const struct evaluation *e) {
+    return e->loader->input->sink;
+}
+
+bool copies_may(const struct schema_row *row) {
+    return row->kind == SCHEMA_LIST && schema_find_row(row->child, STR("for")) >= 0;
+}
+
+struct ir_scene *copies_written(const struct evaluation *e) {
+    return e->copying ? &e->copying->written : e->scene;
+}
+
+// ---- names that are not in reach
+
+const char *evaluation_help(struct evaluation *e, str name) {
+    for (uint32_t i = e->variable_count; e->entry && i < e->entry->variable_count; i++)
+        if (e->entry->variables[i].ir && str_equal(e->entry->variables[i].ir->name, name))
+            return "a variable of 'for' can use those before it, not those after it: exchange them";
+    if (!e->has_variables_named)
+        str_map_init(&e->variables_named, &e->loader->scratch);
+    for (uint32_t i = 0; !e->has_variables_named && i < SCHEMA_SCENE.row_count; i++) {
+        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
+        const struct ir_any_list list = ir_walk_list(row, copies_written(e));
+        for (uint32_t k = 0; copies_may(row) && k < list.count; k++) {
+            const struct schema_row *variables = &row->child->rows[schema_find_row(row->child, STR("for"))];
+            const struct ir_any_list of_entry = ir_walk_list(variables, ir_walk_item(row, list, k));
+            for (uint32_t v = 0; v < of_entry.count; v++)
+                *str_map_at(&e->variables_named, ((const struct ir_variable *)of_entry.items)[v].name) = 1;
+        }
+    }
+    e->has_variables_named = true;
+    return str_map_find(&e->variables_named, name)
+               ? "a variable of 'for' is known in its entry, and in what is written in place there"
+               : NULL;
+}
+
+bool evaluation_is_three(const struct evaluation *e, str name) {
+    for (uint32_t i = 0; e->entry && i < e->variable_count; i++)
+        if (str_equal(e->names[e->count + i], name))
+            return e->entry->variables[i].is_list && e->entry->variables[i].value_count == 3;
+    return false;
+}
+
+// ---- messages
+
+// Appends ", with i = 3, j = 4".
+static void print_variables(const struct evaluation *e, struct strbuf *out) {
+    for (uint32_t i = 0; i < e->variable_count; i++) {
+        strbuf_format(out, "%s%.*s = ", i ? ", " : ", with ", STR_ARG(e->names[e->count + i]));
+        expression_print(e->variables[i].type, e->values + (size_t)EXPRESSION_WIDTH * (e->count + i), out);
+    }
+}
+
+const char *evaluation_suffix(const struct evaluation *e) {
+    if (!e->variable_count)
+        return e->suffix;
+    struct strbuf text;
+    strbuf_init(&text);
+    print_variables(e, &text);
+    const char *suffix =
+        arena_format(&e->loader->scratch, "%.*s%s", STR_ARG(strbuf_view(&text)), e->suffix).ptr;
+    strbuf_finish(&text);
+    return suffix;
+}
+
+void evaluation_fault(struct evaluation *e, diag_code code, str text, span at, bool with_values,
+                      const struct expression_fault *fault) {
+    if (e->is_quiet || diag_is_repeat(sink(e), code, at))
+        return;
+    const struct diag_expression expression = {.text = text,
+                                               .at = at,
+                                               .suffix = with_values ? evaluation_suffix(e) : e->suffix,
+                                               .names = e->names,
+                                               .name_count = e->count + e->variable_count};
+    struct expression_fault told = *fault;
+    if (fault->problem == EXPRESSION_UNKNOWN_NUMBER && !fault->help)
+        told.help = evaluation_help(e, str_slice(text, fault->begin, fault->end));
+    diag_expression_fault(sink(e), e->loader->input->sources, code, &expression, &told);
+}
+
+bool evaluation_compile(struct evaluation *e, diag_code code, str text, span at,
+                        struct expression *expression) {
+    struct expression_fault fault;
+    if (expression_compile(text, &e->scope, &e->loader->scratch, expression, &fault))
+        return true;
+    // A parameter that was reported is known.
+    const uint32_t number = str_map_find(&e->by_name, str_slice(text, fault.begin, fault.end));
+    if (fault.problem != EXPRESSION_UNKNOWN_NUMBER || !number)
+        evaluation_fault(e, code, text, at, false, &fault);
+    return false;
+}
+
+bool evaluation_name_fits(const struct evaluation *e, str name, span at, const char *what) {
+    if (expression_is_word(name) || str_equal(name, STR("tau"))) {
+        diag_add(sink(e), DIAG_BAD_NAME, at, "'%.*s' is a word of expressions and cannot be a %s's name",
+                 STR_ARG(name), what);
+        diag_help(sink(e), "choose another name");
+        return false;
+    }
+    if (expression_is_free(name))
+        return true;
+    diag_add(sink(e), DIAG_BAD_NAME, at, "'%.*s' cannot be a %s's name",
+             STR_ARG(say_text(&e->loader->scratch, name)), what);
+    str mended = arena_copy(&e->loader->scratch, name);
+    for (size_t i = 0; i < mended.len; i++)
+        if (mended.ptr[i] == '-')
+            ((char *)mended.ptr)[i] = '_';
+    if (!expression_is_free(mended)) {
+        diag_help(
+            sink(e),
+            "a name in expressions has letters, digits and '_', and is not a word such as 'yes' or 'on'");
+        return false;
+    }
+    diag_help(sink(e), "'-' subtracts: write %.*s", STR_ARG(mended));
+    diag_fix(sink(e), false, at, mended);
+    return false;
+}
+
+void evaluation_mark_named(struct evaluation *e, str text) {
+    size_t at = 0;
+    str name;
+    while (expression_next_name(text, &at, &name)) {
+        const uint32_t number = str_map_find(&e->by_name, name);
+        if (number)
+            e->items[number - 1].is_used = true;
+    }
+}
