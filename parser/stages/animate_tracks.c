@@ -216,7 +216,10 @@ static bool bad_value(const struct motion *motion, span at, str text, const stru
                                                .suffix = suffix,
                                                .names = e ? e->names : NULL,
                                                .name_count = e ? e->count : 0};
-    diag_expression_fault(sink(motion), motion->loader->input->sources, DIAG_TRACK_VALUE, &expression, fault);
+    struct expression_fault told = *fault;
+    if (fault->problem == EXPRESSION_UNKNOWN_NUMBER && !fault->help && motion->evaluation)
+        told.help = evaluation_help(motion->evaluation, str_slice(text, fault->begin, fault->end));
+    diag_expression_fault(sink(motion), motion->loader->input->sources, DIAG_TRACK_VALUE, &expression, &told);
     return false;
 }
 

@@ -168,11 +168,11 @@ bool copies_read_entry(struct evaluation *e, struct copy_entry *entry) {
     entry->variables = ARENA_ARRAY(&e->loader->scratch, struct entry_variable, list.count + 1);
     copies_leave(e);
     e->entry = entry;
-    for (uint32_t i = 0; i < list.count; i++) {
+    for (uint32_t i = 0; i < list.count; i++)
         entry->variables[i].ir = ir_walk_item(&schema->rows[row], list, i);
+    for (uint32_t i = 0; i < list.count; i++)
         if (!read_variable(e, entry, i))
             return false;
-    }
     return read_condition(e, entry);
 }
 
@@ -184,15 +184,17 @@ bool copies_size(struct evaluation *e, const struct copy_entry *entry, uint32_t 
         *size = v->is_list ? v->value_count : (uint32_t)v->ir->count;
         return true;
     }
-    if (!expression_at(&v->expression, &e->at, value, &fault)) {
-        evaluation_fault(e, DIAG_EXPRESSION, v->formula->text, v->formula->at, true, &fault);
-        return false;
-    }
     const struct bind_frame frame = frame_of(e, entry, v);
-    if (!evaluate_fits(e, bind_subject(&frame, v->formula->row), v->formula, value[0]))
-        return false;
-    *size = (uint32_t)value[0];
-    return true;
+    const uint32_t in_reach = e->variable_count;
+    e->variable_count = variable; // messages give the values of those before it
+    bool good = expression_at(&v->expression, &e->at, value, &fault);
+    if (!good)
+        evaluation_fault(e, DIAG_EXPRESSION, v->formula->text, v->formula->at, true, &fault);
+    else
+        good = evaluate_fits(e, bind_subject(&frame, v->formula->row), v->formula, value[0]);
+    e->variable_count = in_reach;
+    *size = good ? (uint32_t)value[0] : 0;
+    return good;
 }
 
 uint32_t copies_used(const struct evaluation *e, const struct copy_entry *entry,
