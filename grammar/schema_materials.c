@@ -1,6 +1,6 @@
 // The rows of the table for materials, and what is painted on them.
-#include "grammar/schema.h"
 #include "grammar/ir.h"
+#include "grammar/schema.h"
 #include "grammar/schema_field.h"
 #include "picture/formats/formats.h"
 #include "shaders/features.h"

@@ -263,7 +263,7 @@ static bool is_row(const struct schema_row *row, str name) {
 
 static const struct schema_element *find_element(str name) {
     for (const struct schema_element *const *e = schema_elements; *e; e++)
-        if (is_called(name, (*e)->name))
+        if (is_called(name, (*e)->name) || str_equal_cstr(name, (*e)->element))
             return *e;
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++)
         if (SCHEMA_SCENE.rows[i].child && is_row(&SCHEMA_SCENE.rows[i], name))
@@ -424,7 +424,7 @@ static void put_other_meanings(struct explainer *e, str what) {
 static const struct schema_element *find_alike(str what, int *row, struct strbuf *names) {
     const struct schema_element *first = NULL;
     for (const struct schema_element *const *s = schema_elements; *s; s++) {
-        const int here = schema_find_row(*s, what);
+        const int here = find_row(*s, what);
         if (here < 0)
             continue;
         if (first && strcmp((*s)->rows[here].doc, first->rows[*row].doc) != 0)

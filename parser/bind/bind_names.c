@@ -422,6 +422,10 @@ static bool is_rest(struct bind_context *context, tree_index key) {
     return true;
 }
 
+enum {
+    SHORT_NAME = 3
+};
+
 struct bind_meant bind_unknown_name(struct bind_context *context, struct bind_frame *frame, tree_index key) {
     struct bind_meant meant = {BIND_MEANT_NOTHING, 0};
     enum tree_key kind = tree_node(context->tree, key)->key;
@@ -449,6 +453,8 @@ struct bind_meant bind_unknown_name(struct bind_context *context, struct bind_fr
     str other = exact || also >= 0 || concept ? STR("") : elsewhere(context, frame, search.snake, false);
     if (!near && also < 0 && !concept && other.len == 0 && search.snake.len > 3)
         other = elsewhere(context, frame, search.snake, true);
+    // Of three letters, one is a third: 'ior' is meant as such before it is taken for 'for'.
+    const bool is_doubtful = near && !exact && search.snake.len <= SHORT_NAME;
     add_unknown(context, frame, key);
     bool is_key = (exact && near->key) || (also >= 0 && frame->schema->rows[also].key);
     if (is_key && kind == TREE_KEY_PLAIN)
@@ -459,6 +465,8 @@ struct bind_meant bind_unknown_name(struct bind_context *context, struct bind_fr
     else if (concept)
         diag_help(context->sink, "%.*s",
                   STR_ARG(say_concept(context->scratch, concept, context->tree->is_xml)));
+    else if (is_doubtful && other_word_elsewhere(context, search.snake))
+        return meant;
     else if (near && (search.distance <= 1 || !other.len))
         did_you_mean(context, frame, key, &search);
     else if (other.len)

@@ -2,6 +2,7 @@
 
 #include "core/number.h"
 #include "core/strbuf.h"
+#include "grammar/ir_copies.h"
 #include "parser/tree/reader.h"
 
 #include <regex.h>
@@ -96,8 +97,9 @@ static void translate(const char *pattern, struct strbuf *out) {
 
 static bool check_pattern(const char *pattern, const char *text) {
     regex_t regex;
-    if (strstr(pattern, "\\u"))
-        return str_is_name(str_from(text)); // names of any script: the one pattern beyond POSIX
+    const str name = str_from(text);
+    if (strstr(pattern, "\\u")) // names of any script, or of copies: the patterns beyond POSIX
+        return str_is_name(strstr(pattern, "(\\[") ? ir_copies_base(name) : name);
     struct strbuf posix;
     strbuf_init(&posix);
     translate(pattern, &posix);

@@ -349,7 +349,7 @@ static void names_of_other_tools(void **state) {
                  "did you mean 'refractive_index' of a material? For example refractive_index: 1.5");
     // Of three elements none is surely meant.
     loaded_check(HEAD_YAML "spheres: [{center: [0, 0, 0], radius: 1, strength: 2}]\n", "E202",
-                 "it can have: name, center");
+                 "it can have: name, for, if, center");
 }
 
 static void what_is_no_scene(void **state) {
