@@ -221,7 +221,8 @@ static void test_every_row_is_explained(void **state) {
     assert_explained("area-light", "has soft shadows");
     assert_explained("AreaLights", "one of them, and more samples");
     assert_explained("bump_map", "Relief");
-    assert_explained("variable", "glint explain parameter");
+    assert_explained("constant", "glint explain parameter");
+    assert_explained("for", "It is the same in all that have it: light, sphere");
     assert_explained("image.tone", "clip: Values above 1 are clipped.");
 }
 
