@@ -11,7 +11,7 @@ static bool check_points(const struct made_lathe *lathe, struct made_fault *faul
     if (!path_check_numbers(lathe->points, lathe->count, fault))
         return false;
     for (uint32_t i = 0; i < lathe->count; i++) {
-        most = fmax(most, lathe->points[i].u);
+        most = fmax(most, plane_number(lathe->points[i].u));
         if (lathe->points[i].u >= 0)
             continue;
         fault->points[0] = i;
@@ -38,7 +38,8 @@ static double largest_radius(const struct made_lathe *lathe) {
 }
 
 static bool is_ring(const struct made_lathe *lathe) {
-    return lathe->count > 3 && plane_same(lathe->points[0], lathe->points[lathe->count - 1]);
+    return lathe->count > 3 &&
+           plane_same(plane_point(lathe->points[0]), plane_point(lathe->points[lathe->count - 1]));
 }
 
 static bool check_axis(const struct path *path, struct made_fault *fault) {

@@ -3,9 +3,9 @@
 // (assets/file/polygons.h), which mesh_build makes a mesh of.
 //
 // Input: one of the structs below. Coordinates are those of the mesh: any unit, y upwards, at most
-// MESH_COORDINATE_MAX. Output: struct made. Its polygons have the normals of the true surface at every corner
-// (a model that is not smooth ignores them) and texture coordinates. Faces point outward where
-// the body is closed. The same input gives the same bits.
+// MESH_COORDINATE_MAX; in profiles and outlines, less than PLANE_LEAST counts as 0. Output: struct made. Its
+// polygons have the normals of the true surface at every corner (a model that is not smooth ignores them) and
+// texture coordinates. Faces point outward where the body is closed. The same input gives the same bits.
 //
 // Curved surfaces become facets. `tolerance` is the greatest distance from the facets to the true surface, as
 // a share of the body's size: of the largest radius (lathe), of radius and tube together (torus), of half of

@@ -49,7 +49,7 @@ static struct ir_pair cubic_at(const struct ir_pair b[4], double t) {
     struct ir_pair sum = {0, 0};
     for (int i = 0; i < 4; i++)
         sum = plane_add(sum, plane_mul(b[i], weights[i]));
-    return sum;
+    return plane_point(sum);
 }
 
 // Where control points coincide, the direction is that to the next one that differs.
@@ -100,11 +100,12 @@ static struct knots find_knots(const struct path_curve *curve, struct arena *are
     struct knots k = {ARENA_ARRAY(arena, struct ir_pair, curve->count),
                       ARENA_ARRAY(arena, uint32_t, curve->count), ARENA_ARRAY(arena, bool, curve->count), 0};
     for (uint32_t i = 0; i < curve->count; i++) {
-        if (k.count > 0 && plane_same(k.at[k.count - 1], curve->points[i])) {
+        const struct ir_pair at = plane_point(curve->points[i]);
+        if (k.count > 0 && plane_same(k.at[k.count - 1], at)) {
             k.is_corner[k.count - 1] = true;
             continue;
         }
-        k.at[k.count] = (struct ir_pair){curve->points[i].u + 0.0, curve->points[i].v + 0.0};
+        k.at[k.count] = at;
         k.source[k.count++] = i;
     }
     if (curve->is_closed && k.count > 1 && plane_same(k.at[0], k.at[k.count - 1])) {

@@ -18,7 +18,7 @@ static int compare_points(const void *a, const void *b) {
 bool region_find_places(struct region *r) {
     struct numbered *sorted = ARENA_ARRAY(r->arena, struct numbered, r->point_count);
     for (uint32_t i = 0; i < r->point_count; i++)
-        sorted[i] = (struct numbered){{r->points[i].u + 0.0, r->points[i].v + 0.0}, i};
+        sorted[i] = (struct numbered){plane_point(r->points[i]), i};
     qsort(sorted, r->point_count, sizeof *sorted, compare_points);
     r->places = ARENA_ARRAY(r->arena, struct ir_pair, r->point_count);
     r->first_at = ARENA_ARRAY(r->arena, uint32_t, r->point_count);

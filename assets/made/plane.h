@@ -29,6 +29,15 @@ static inline double plane_cross(struct ir_pair a, struct ir_pair b) {
 static inline bool plane_same(struct ir_pair a, struct ir_pair b) {
     return a.u == b.u && a.v == b.v;
 }
+// A number nearer to 0 than this counts as 0, so that no product of two coordinates underflows.
+#define PLANE_LEAST 1e-100
+// Makes 0 of what counts as 0, and of -0.
+static inline double plane_number(double a) {
+    return fabs(a) < PLANE_LEAST ? 0 : a;
+}
+static inline struct ir_pair plane_point(struct ir_pair a) {
+    return (struct ir_pair){plane_number(a.u), plane_number(a.v)};
+}
 // From left to right, and upwards where that is the same.
 static inline bool plane_before(struct ir_pair a, struct ir_pair b) {
     return a.u < b.u || (a.u == b.u && a.v < b.v);
@@ -48,9 +57,9 @@ double plane_distance(struct ir_pair a, struct ir_pair b);
 // From `a` towards `b`, of length 1; (0, 0) if they are the same point.
 struct ir_pair plane_direction(struct ir_pair a, struct ir_pair b);
 
-// On which side of the line from `a` to `b` the point `c` is: 1 left, -1 right, 0 on it. Exact, as long as no
-// product of two coordinates underflows (Shewchuk 1997, "Adaptive precision floating-point arithmetic and
-// fast robust geometric predicates"; here with one filter, and then in full).
+// On which side of the line from `a` to `b` the point `c` is: 1 left, -1 right, 0 on it. Exact for points
+// that plane_point made (Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust
+// geometric predicates"; here with one filter, and then in full).
 int plane_side(struct ir_pair a, struct ir_pair b, struct ir_pair c);
 // Where the lines through two pieces cross, which are not parallel; rounded.
 struct ir_pair plane_crossing(struct ir_pair a, struct ir_pair b, struct ir_pair c, struct ir_pair d);

@@ -5,7 +5,7 @@
 // the winding number does not pass between filled and not filled are left out. Output: sides, with the filled
 // area to the left, each with its successor around that area, and triangles, counter-clockwise, over the same
 // points. Every triangle edge inside is used once in each direction, and every side once.
-// Sides are found exactly, if no product of coordinates underflows; triangles are assets/triangulate.h's.
+// Sides are found exactly, of points as plane_point makes them; triangles are assets/triangulate.h's.
 // Errors: edges that cross or touch (`clash`). Ownership: the arena's. Thread safety: one region belongs to
 // one thread.
 #ifndef GLINT_ASSETS_MADE_REGION_H

@@ -158,6 +158,21 @@ static void test_bevel(void **state) {
     assert_true(kit.made.fault.most == 0.2);
 }
 
+// What is nearer to 0 than products of two coordinates can tell counts as 0.
+static void test_tiny_numbers(void **state) {
+    (void)state;
+    begin();
+    add_box(0, 0, 2, 3);
+    points[0].u = -1e-300;
+    points[1].v = 1e-300;
+    points[3].u = 1e-300;
+    made_kit_closed(&kit, made_kit_extrude(&kit, all()));
+    assert_true(kit.mesh.volume == 12 && kit.mesh.triangle_count == 12);
+    begin();
+    add_box(0, 0, 1e-300, 1e-300);
+    made_kit_refused(&kit, made_kit_extrude(&kit, all()), MADE_POINTS_FEW);
+}
+
 // Stars with stars in them, side by side: their area, and what covers each point.
 static void test_random_outlines(void **state) {
     (void)state;
@@ -324,9 +339,13 @@ static int finish(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_box),    cmocka_unit_test(test_bevel),
-        cmocka_unit_test(test_circle), cmocka_unit_test(test_random_outlines),
-        cmocka_unit_test(test_faults), cmocka_unit_test(test_random_crossings),
+        cmocka_unit_test(test_box),
+        cmocka_unit_test(test_bevel),
+        cmocka_unit_test(test_tiny_numbers),
+        cmocka_unit_test(test_circle),
+        cmocka_unit_test(test_random_outlines),
+        cmocka_unit_test(test_faults),
+        cmocka_unit_test(test_random_crossings),
         cmocka_unit_test(test_speed),
     };
     return cmocka_run_group_tests(tests, NULL, finish);

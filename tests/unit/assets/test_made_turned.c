@@ -250,6 +250,17 @@ static void test_smooth(void **state) {
     made_kit_closed(&kit, made_kit_lathe(&kit, (struct made_lathe){pointed, 5, true, 360, 1e-3}));
 }
 
+// What is nearer to 0 than products of two coordinates can tell counts as 0.
+static void test_tiny_numbers(void **state) {
+    (void)state;
+    const struct ir_pair cone[] = {{1e-300, 0}, {1, -1e-300}, {0, 2}};
+    const struct ir_pair ring[] = {{24, 9.5}, {9.5, -1e-300}, {9.5, 0}, {24, 9.5}};
+    const struct ir_pair axis[] = {{1e-300, 0}, {1e-200, 1}};
+    made_kit_closed(&kit, made_kit_lathe(&kit, (struct made_lathe){cone, 3, false, 100, 1e-3}));
+    made_kit_refused(&kit, made_kit_lathe(&kit, lathe_of(ring, 4)), MADE_POINTS_FEW);
+    made_kit_refused(&kit, made_kit_lathe(&kit, lathe_of(axis, 2)), MADE_AXIS);
+}
+
 // ---- faults
 
 static void test_faults(void **state) {
@@ -345,12 +356,13 @@ static int finish(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cone),          cmocka_unit_test(test_open),
-        cmocka_unit_test(test_torus),         cmocka_unit_test(test_touches_axis_within),
-        cmocka_unit_test(test_smooth),        cmocka_unit_test(test_random_profiles),
-        cmocka_unit_test(test_faults),        cmocka_unit_test(test_faces),
-        cmocka_unit_test(test_speed),         cmocka_unit_test(test_torus_measures),
-        cmocka_unit_test(test_torus_normals), cmocka_unit_test(test_frustum),
+        cmocka_unit_test(test_cone),           cmocka_unit_test(test_open),
+        cmocka_unit_test(test_torus),          cmocka_unit_test(test_touches_axis_within),
+        cmocka_unit_test(test_smooth),         cmocka_unit_test(test_random_profiles),
+        cmocka_unit_test(test_tiny_numbers),   cmocka_unit_test(test_faults),
+        cmocka_unit_test(test_faces),          cmocka_unit_test(test_speed),
+        cmocka_unit_test(test_torus_measures), cmocka_unit_test(test_torus_normals),
+        cmocka_unit_test(test_frustum),
     };
     return cmocka_run_group_tests(tests, NULL, finish);
 }
