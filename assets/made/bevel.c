@@ -8,18 +8,25 @@ static struct ir_pair direction_of(const struct region *region, uint32_t side) {
     return plane_direction(region->places[region->sides[side].from], region->places[region->sides[side].to]);
 }
 
-// Where the lines beside both sides of a corner cross, seen from the corner, for a distance of 1.
-static struct ir_pair mitre(struct ir_pair before, struct ir_pair after) {
+// Where the lines beside both sides of a corner cross, seen from the corner, for a distance of 1. false: the
+// corner turns back so sharply that, as far as doubles tell, they are parallel.
+static bool find_mitre(struct ir_pair before, struct ir_pair after, struct ir_pair *out) {
     const struct ir_pair sum = {-before.v - after.v, before.u + after.u};
-    return plane_mul(sum, 1 / (1 + plane_dot(before, after)));
+    // The same as 1 + before * after, which would be nothing but rounding at a sharp corner.
+    const double share = plane_dot(sum, sum) / 2;
+    *out = plane_mul(sum, 1 / share);
+    return share > 0;
 }
 
-static void move_corners(const struct region *region, double distance, struct ir_pair *points) {
+static bool move_corners(const struct region *region, double distance, struct ir_pair *points) {
     for (uint32_t i = 0; i < region->side_count; i++) {
         const struct region_side *side = &region->sides[i];
-        const struct ir_pair by = mitre(direction_of(region, i), direction_of(region, side->next));
+        struct ir_pair by;
+        if (!find_mitre(direction_of(region, i), direction_of(region, side->next), &by))
+            return false;
         points[i] = plane_add(region->places[side->to], plane_mul(by, distance));
     }
+    return true;
 }
 
 // Whether each side, from the corner before it to its own, keeps its direction.
@@ -44,7 +51,6 @@ bool bevel_make(const struct region *region, double distance, struct region *ins
     struct arena *arena = region->arena;
     struct ir_pair *points = ARENA_ARRAY(arena, struct ir_pair, region->side_count);
     struct region_edge *edges = ARENA_ARRAY(arena, struct region_edge, region->side_count);
-    move_corners(region, distance, points);
     for (uint32_t i = 0; i < region->side_count; i++) {
         edges[i].to = i;
         edges[region->sides[i].next].from = i;
@@ -54,7 +60,8 @@ bool bevel_make(const struct region *region, double distance, struct region *ins
                              .point_count = region->side_count,
                              .edges = edges,
                              .edge_count = region->side_count};
-    return keeps_sides(region, edges, points) && region_cut(inset) == REGION_FINE && keeps_area(inset);
+    return move_corners(region, distance, points) && keeps_sides(region, edges, points) &&
+           region_cut(inset) == REGION_FINE && keeps_area(inset);
 }
 
 struct trial {

@@ -158,6 +158,27 @@ static void test_bevel(void **state) {
     assert_true(kit.made.fault.most == 0.2);
 }
 
+// A hole whose tip is so sharp that the cosine of its angle is 1, or rounded to more: the corner of its bevel
+// is far outside the box, or at no place.
+static void test_bevel_of_a_needle(void **state) {
+    (void)state;
+    for (double along = 1; along < 20; along++)
+        for (double across = 1; across < 20; across++) {
+            begin();
+            add_box(-1e6, -1e6, 3e7, 3e7);
+            begin_outline();
+            add_point(0, 0);
+            add_point(along * 1e6, across * 1e6);
+            add_point(along * 1e6, across * 1e6 + 0x1p-7);
+            end_outline();
+            struct made_extrude extrude = all();
+            made_kit_closed(&kit, made_kit_extrude(&kit, extrude));
+            extrude.bevel = 0.25;
+            made_kit_refused(&kit, made_kit_extrude(&kit, extrude), MADE_BEVEL);
+            assert_true(kit.made.fault.most < 0.25);
+        }
+}
+
 // What is nearer to 0 than products of two coordinates can tell counts as 0.
 static void test_tiny_numbers(void **state) {
     (void)state;
@@ -341,6 +362,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_box),
         cmocka_unit_test(test_bevel),
+        cmocka_unit_test(test_bevel_of_a_needle),
         cmocka_unit_test(test_tiny_numbers),
         cmocka_unit_test(test_circle),
         cmocka_unit_test(test_random_outlines),
