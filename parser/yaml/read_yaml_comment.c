@@ -105,7 +105,8 @@ bool yaml_comment_color(const struct yaml_reader *r, uint32_t at, struct reader_
     while (end < text.len && char_hex(text.ptr[end]) >= 0)
         end++;
     uint32_t digits = end - at - 1;
-    bool ends = end == text.len || char_is_space(text.ptr[end]) || memchr(",]}", text.ptr[end], 3) != NULL;
+    bool ends = end == text.len || char_is_space(text.ptr[end]) || str_yaml_break_length(text, end) ||
+                memchr(",]}", text.ptr[end], 3) != NULL;
     *color = (struct reader_range){at, end};
     return ends && (digits == 6 || digits == 3);
 }
