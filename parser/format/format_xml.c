@@ -174,6 +174,14 @@ static void put_value(struct printer *p, str value) {
     format_lines_text(p->lines, str_slice(value, begin, value.len));
 }
 
+// Characters of an attribute; a line end is one, however it is written: the file may get another one.
+static size_t attribute_width(const struct attribute *a) {
+    size_t width = utf8_count(a->name) + 1 + utf8_count(a->value);
+    for (size_t i = 0; i < a->value.len; i++)
+        width -= str_break_length(a->value, i) == 2;
+    return width;
+}
+
 // A tag; attributes that do not fit into the line continue below the first one, if they fit at all.
 static void put_tag(struct printer *p, const struct piece *piece) {
     uint32_t at = name_end(p, piece);
@@ -182,7 +190,7 @@ static void put_tag(struct printer *p, const struct piece *piece) {
     uint32_t first = p->lines->column + 1;
     struct attribute a;
     for (bool begun = false; next_attribute(p, &at, &a); begun = true) {
-        size_t width = 2 + utf8_count(a.name) + utf8_count(a.value) + ending;
+        size_t width = 1 + attribute_width(&a) + ending;
         if (begun && p->lines->column + width > FORMAT_WIDTH && first + width - 1 <= FORMAT_WIDTH)
             format_lines_next(p->lines, 0, first);
         else
@@ -272,8 +280,12 @@ static void put_pieces(struct printer *p) {
 }
 
 bool format_xml(struct arena *arena, str text, uint32_t begin, struct format_lines *lines) {
-    struct printer p = {
-        .arena = arena, .text = text, .begin = begin, .gap = begin, .lines = lines, .place = {begin, 0}};
+    struct printer p = {.arena = arena,
+                        .text = text,
+                        .begin = begin,
+                        .gap = begin,
+                        .lines = lines,
+                        .place = {begin, 0, false}};
     if (!find_pieces(&p) || p.pieces.count == 0)
         return false;
     put_pieces(&p);
