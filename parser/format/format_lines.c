@@ -30,6 +30,10 @@ void format_lines_text(struct format_lines *lines, str text) {
     lines->column += (uint32_t)utf8_count(text);
 }
 
+void format_lines_ended(struct format_lines *lines) {
+    last_line(lines)->is_ended = true;
+}
+
 void format_lines_comment(struct format_lines *lines, str comment, uint32_t column) {
     struct format_line *line = last_line(lines);
     if (line->comment.len) {
@@ -57,12 +61,17 @@ static str take_comment_line(str comment, size_t *at, bool *last) {
     return line;
 }
 
+static bool begins_line(str text, uint32_t at, bool is_yaml) {
+    return is_yaml ? str_yaml_break_before(text, at) : char_is_break(text.ptr[at - 1]);
+}
+
 uint32_t format_column(str text, struct format_place *last, uint32_t at) {
     uint32_t start = at;
-    while (start > last->at && !char_is_break(text.ptr[start - 1]))
+    while (start > last->at && !begins_line(text, start, last->is_yaml))
         start--;
-    uint32_t before = start == last->at ? last->column : 0;
-    *last = (struct format_place){at, before + (uint32_t)utf8_count(str_slice(text, start, at))};
+    const uint32_t before = start == last->at ? last->column : 0;
+    last->column = before + (uint32_t)utf8_count(str_slice(text, start, at));
+    last->at = at;
     return last->column;
 }
 
@@ -140,7 +149,7 @@ void format_lines_write(const struct format_lines *lines, str line_end, bool las
             write_comment(line, column, line_end, out);
             run--;
         }
-        if (last_end || i + 1 < lines->lines.count)
+        if (!line->is_ended && (last_end || i + 1 < lines->lines.count))
             strbuf_str(out, line_end);
     }
     out->failed = out->failed || lines->body.failed;

@@ -130,18 +130,35 @@ static str skip_blanks(str line) {
     return str_slice(line, i, line.len);
 }
 
+// A line of a text. NEL is read as LF; LS and PS end a line too, but belong to the text.
+static str take_line(str text, size_t *at, bool at_separators) {
+    size_t begin = *at, end = *at, length = 0;
+    for (; end < text.len; end++) {
+        length = str_yaml_break_length(text, end);
+        if (length && (length < 3 || at_separators))
+            break;
+    }
+    *at = end < text.len ? end + length : end;
+    return str_slice(text, begin, end);
+}
+
 // A token as written; if it has several lines, each further one begins at `indent`.
 static void put(struct printer *p, enum join join, uint32_t indent) {
     const struct yaml_token *token = peek(p);
     begin_token(p, token, join, indent);
     str text = str_slice(p->text, token->begin, token->end);
-    size_t at = 0;
-    format_lines_text(p->lines, format_take_line(text, &at));
-    while (at < text.len) {
-        str line = skip_blanks(format_take_line(text, &at));
-        format_lines_next(p->lines, 0, line.len ? indent : 0);
-        if (line.len)
+    for (size_t at = 0, begin = 0; at < text.len; begin = at) {
+        str line = take_line(text, &at, true);
+        const str line_end = str_slice(text, begin + line.len, at);
+        line = begin ? skip_blanks(line) : line;
+        if (begin)
+            format_lines_next(p->lines, 0, line.len ? indent : 0);
+        if (line.len || !begin)
             format_lines_text(p->lines, line);
+        if (line_end.len == 3) {
+            format_lines_text(p->lines, line_end);
+            format_lines_ended(p->lines);
+        }
     }
     end_token(p, token);
 }
@@ -155,22 +172,10 @@ static uint32_t count_spaces(str line) {
     return n;
 }
 
-// A line of a block text. NEL is read as LF; LS and PS end a line too, but belong to the text.
-static str take_block_line(str text, size_t *at, bool at_separators) {
-    size_t begin = *at, end = *at, length = 0;
-    for (; end < text.len; end++) {
-        length = str_yaml_break_length(text, end);
-        if (length && (length < 3 || at_separators))
-            break;
-    }
-    *at = end < text.len ? end + length : end;
-    return str_slice(text, begin, end);
-}
-
 // Writes a line that was indented by `from` spaces with `to` spaces; also the lines after an LS or PS in it.
 static void put_block_line(struct printer *p, str line, uint32_t from, uint32_t to) {
     for (size_t at = 0, begin = 0; at < line.len; begin = at) {
-        str part = take_block_line(line, &at, true);
+        str part = take_line(line, &at, true);
         if (begin > 0 && part.len > from)
             strbuf_repeat(&p->lines->body, ' ', to);
         format_lines_text(p->lines, str_slice(part, from, part.len));
@@ -183,9 +188,9 @@ static uint32_t block_text_indent(const struct printer *p, str text, uint32_t di
     if (digit)
         return p->level.source + digit;
     size_t at = 0;
-    take_block_line(text, &at, true);
+    take_line(text, &at, true);
     while (at < text.len) {
-        str line = take_block_line(text, &at, true);
+        str line = take_line(text, &at, true);
         if (skip_blanks(line).len)
             return count_spaces(line);
     }
@@ -197,11 +202,20 @@ static uint32_t block_text_indent(const struct printer *p, str text, uint32_t di
 static size_t block_text_end(str text, size_t at, uint32_t from) {
     size_t end = at;
     while (at < text.len) {
-        const str line = take_block_line(text, &at, true);
+        const str line = take_line(text, &at, true);
         if (line.len > from || skip_blanks(line).len)
             end = at;
     }
     return end;
+}
+
+// Whether an LS or PS is all that ends the line before `end`: a line end after it would be one more line,
+// which counts if the text keeps its empty lines.
+static bool ends_with_separator(const struct printer *p, uint32_t end) {
+    uint32_t next = end;
+    while (next < p->text.len && char_is_blank(p->text.ptr[next]))
+        next++;
+    return str_yaml_break_before(p->text, end) && next < p->text.len && !str_yaml_break_length(p->text, next);
 }
 
 static void put_block_text(struct printer *p, enum join join, uint32_t indent) {
@@ -209,7 +223,7 @@ static void put_block_text(struct printer *p, enum join join, uint32_t indent) {
     begin_token(p, &token, join, indent);
     str text = str_slice(p->text, token.begin, token.end);
     size_t at = 0;
-    str whole = take_block_line(text, &at, true);
+    str whole = take_line(text, &at, true);
     size_t hash = 0;
     while (hash < whole.len && whole.ptr[hash] != '#')
         hash++;
@@ -233,7 +247,7 @@ static void put_block_text(struct printer *p, enum join join, uint32_t indent) {
         text.len = block_text_end(text, at, from);
     uint32_t end = token.begin + (uint32_t)whole.len, empty = 0;
     while (at < text.len) {
-        str line = take_block_line(text, &at, false);
+        str line = take_line(text, &at, false);
         if (line.len <= from && !skip_blanks(line).len) {
             empty++;
             continue;
@@ -245,6 +259,8 @@ static void put_block_text(struct printer *p, enum join join, uint32_t indent) {
     }
     end_token(p, &token);
     p->gap = end;
+    if (keeps_breaks && ends_with_separator(p, end))
+        format_lines_ended(p->lines);
     p->lines->is_open = end == p->text.len;
 }
 
@@ -429,7 +445,7 @@ static void put_node(struct printer *p, enum join join, uint32_t indent) {
 // are words. (A key of one word has its colon directly after it.)
 static bool is_mark(str key) {
     size_t word = 0;
-    while (word < key.len && !char_is_space(key.ptr[word]))
+    while (word < key.len && !char_is_space(key.ptr[word]) && !str_yaml_break_length(key, word))
         word++;
     str first = str_slice(key, 0, word);
     bool marks =
@@ -460,7 +476,8 @@ static void put_document(struct printer *p) {
 }
 
 bool format_yaml(struct arena *arena, str text, uint32_t begin, struct format_lines *lines) {
-    struct printer p = {.arena = arena, .text = text, .gap = begin, .lines = lines, .place = {begin, 0}};
+    struct printer p = {
+        .arena = arena, .text = text, .gap = begin, .lines = lines, .place = {begin, 0, true}};
     if (!yaml_tokens_read(arena, text, begin, &p.tokens) || p.tokens.documents > 1)
         return false;
     p.last = YAML_TOKEN_END;

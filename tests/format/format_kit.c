@@ -42,11 +42,14 @@ enum format_status format_text(const char *path, str text, const struct upgrade_
     return status;
 }
 
-// All but white space.
+// All but white space and line ends.
 static void add_words(struct strbuf *out, str text) {
-    for (size_t i = 0; i < text.len; i++)
-        if (!memchr(" \t\n\r", text.ptr[i], 4))
+    for (size_t i = 0; i < text.len;) {
+        const size_t length = str_yaml_break_length(text, i);
+        if (!length && !memchr(" \t", text.ptr[i], 2))
             strbuf_char(out, text.ptr[i]);
+        i += length ? length : 1;
+    }
 }
 
 // Each entry's path with the comments before it and behind it on its line.

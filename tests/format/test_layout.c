@@ -166,6 +166,41 @@ static void test_line_ends(void **state) {
     yaml("glint:  1\rimage: {}", "glint: 1\rimage: {}");
     xml("<Scene glint=\"1\" description=\"a\r\n  b\">\r\n<Light/>\r\n</Scene>",
         "<Scene glint=\"1\" description=\"a\r\n  b\">\r\n  <Light/>\r\n</Scene>");
+    // An attribute fits or not, whichever line ends it has.
+    static const char *const ends[] = {"\n", "\r\n", "\r"};
+    struct strbuf text;
+    strbuf_init(&text);
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+        strbuf_clear(&text);
+        strbuf_cstr(&text, "<Scene glint=\"1\" x-a=\"b\" description=\"");
+        for (int k = 0; k < 40; k++)
+            strbuf_cstr(&text, ends[i]);
+        strbuf_cstr(&text, "c\"></Scene>");
+        xml(text.data, text.data);
+    }
+    strbuf_finish(&text);
+}
+
+#define LS  "\xE2\x80\xA8"
+#define NEL "\xC2\x85"
+
+// In YAML these end lines, too; LS (and PS) belongs to a text.
+static void test_yaml_separators(void **state) {
+    (void)state;
+    // The column of a comment is counted from them.
+    yaml("glint: 1\nx-a:\n" LS "# c\nx-b: 1\n", "glint: 1\nx-a:\n\n# c\nx-b: 1\n");
+    yaml("glint: 1\nx-a:\n    b:" NEL "    # c\n", "glint: 1\nx-a:\n  b:\n  # c\n");
+    yaml("glint: 1 # a" LS "x-a: 1    # b\nx-b: 10   # c\n", "glint: 1  # a\nx-a: 1   # b\nx-b: 10  # c\n");
+    yaml("glint: 1\nx-a: #123456" NEL, "glint: 1\nx-a:  #123456\n"); // an unquoted colour before and after
+    // A text that keeps its last lines gets no further one.
+    yaml("glint: 1\nx-a: |+\n a\n" LS "x-b: 1\n", "glint: 1\nx-a: |+\n  a\n  " LS "x-b: 1\n");
+    yaml("glint: 1\nx-a: |+\n a\n" LS "# c\nx-b: 1\n", "glint: 1\nx-a: |+\n  a\n  " LS "# c\nx-b: 1\n");
+    yaml("glint: 1\nx-a: |+\n a" LS "\nx-b: 1\n", "glint: 1\nx-a: |+\n  a" LS "\nx-b: 1\n");
+    yaml("glint: 1\nx-a: |\n a\n" LS "x-b: 1\n", "glint: 1\nx-a: |\n  a\n\nx-b: 1\n");
+    // Lines of other texts after them are indented like others.
+    yaml("glint: 1\nx-a:\n- b" LS " c\n", "glint: 1\nx-a:\n  - b" LS "    c\n");
+    yaml("glint: 1\nx-a: [b" NEL "c]\n", "glint: 1\nx-a: [b\n      c]\n");
+    yaml("glint: 1\nx-a: {---" NEL "0}\n", "  glint: 1\n  x-a: {---\n        0}\n");
 }
 
 static void test_refused(void **state) {
@@ -249,12 +284,19 @@ static void test_upgrade_of_version_one(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_yaml_blanks),   cmocka_unit_test(test_yaml_lines_in_brackets),
-        cmocka_unit_test(test_yaml_comments), cmocka_unit_test(test_yaml_texts),
-        cmocka_unit_test(test_yaml_anchors),  cmocka_unit_test(test_yaml_documents),
-        cmocka_unit_test(test_xml),           cmocka_unit_test(test_xml_long_tags),
-        cmocka_unit_test(test_line_ends),     cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_upgrade),       cmocka_unit_test(test_upgrade_of_version_one),
+        cmocka_unit_test(test_yaml_blanks),
+        cmocka_unit_test(test_yaml_lines_in_brackets),
+        cmocka_unit_test(test_yaml_comments),
+        cmocka_unit_test(test_yaml_texts),
+        cmocka_unit_test(test_yaml_anchors),
+        cmocka_unit_test(test_yaml_documents),
+        cmocka_unit_test(test_xml),
+        cmocka_unit_test(test_xml_long_tags),
+        cmocka_unit_test(test_line_ends),
+        cmocka_unit_test(test_yaml_separators),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_upgrade),
+        cmocka_unit_test(test_upgrade_of_version_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
