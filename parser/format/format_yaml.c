@@ -329,7 +329,8 @@ static enum join flow_join(const struct printer *p, enum join otherwise) {
     return breaks_before(p, peek(p)) ? JOIN_LINE : otherwise;
 }
 
-static void put_flow_entry(struct printer *p, enum join join, uint32_t indent) {
+// Returns whether a line end before its colon is still to be written, before the next entry.
+static bool put_flow_entry(struct printer *p, enum join join, uint32_t indent) {
     const struct yaml_token *token = peek(p);
     bool marked = token->kind == YAML_TOKEN_KEY && token->begin < token->end;
     if (marked) {
@@ -340,14 +341,18 @@ static void put_flow_entry(struct printer *p, enum join join, uint32_t indent) {
     }
     put_node(p, join, marked && join == JOIN_LINE ? indent + FORMAT_INDENT : indent);
     if (peek(p)->kind != YAML_TOKEN_COLON)
-        return;
+        return false;
+    const bool breaks = breaks_before(p, peek(p));
+    const uint32_t lines = p->lines->lines.count;
     bool apart = takes_colon(p->last) || p->last == YAML_TOKEN_KEY || p->last == YAML_TOKEN_COMMA;
     put(p, apart ? JOIN_SPACE : JOIN_NONE, indent);
+    const bool moves = breaks && p->lines->lines.count == lines;
     enum yaml_token_kind next = peek(p)->kind;
     if (next == YAML_TOKEN_COMMA || next == YAML_TOKEN_FLOW_CLOSE)
-        return;
-    enum join value = flow_join(p, JOIN_SPACE);
+        return moves;
+    enum join value = moves ? JOIN_LINE : flow_join(p, JOIN_SPACE);
     put_node(p, value, value == JOIN_LINE ? indent + FORMAT_INDENT : indent);
+    return false;
 }
 
 // A separator of entries, or a property of a value, stays at the beginning of its line if a comment follows:
@@ -381,8 +386,7 @@ static void put_flow(struct printer *p, enum join join, uint32_t indent) {
             next = JOIN_SPACE;
             continue;
         }
-        put_flow_entry(p, broken ? JOIN_LINE : next, inner);
-        broken = false;
+        broken = put_flow_entry(p, broken ? JOIN_LINE : next, inner);
         if (p->at == before)
             return; // not YAML's grammar: the caller sees it from the tokens left over
     }

@@ -79,6 +79,9 @@ static void test_yaml_comments(void **state) {
     yaml("glint: 1\nx-m: {!!null : 1, &a : 2}\nx-n:\n  !!null : 1\n",
          "glint: 1\nx-m: {!!null : 1, &a : 2}\nx-n:\n  !!null : 1\n");
     yaml("glint: 1\nx-m: {a, ?\nb, c} # c\n", "glint: 1\nx-m: {a, ?\n        b, c}  # c\n");
+    yaml("glint: 1\nx-m: {? a\n: , b} # c\n", "glint: 1\nx-m: {? a: ,\n      b}  # c\n");
+    yaml("glint: 1\nx-m: {? a\n: 1, b} # c\n", "glint: 1\nx-m: {? a:\n        1, b}  # c\n");
+    yaml("glint: 1\nx-m: {? a # c\n: 1, b} # d\n", "glint: 1\nx-m: {? a  # c\n      : 1, b}  # d\n");
     yaml("glint: 1\nx-m: {?a : 1, ?b:: , ? c::: 2}\n", "glint: 1\nx-m: {? a: 1, ? b:: , ? c::: 2}\n");
     // Behind an anchor or a comma that begins its line.
     yaml("glint: 1\nx-m:\n   &a # c\n b: 1\n", "glint: 1\nx-m:\n  &a  # c\n  b: 1\n");
