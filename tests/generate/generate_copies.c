@@ -9,13 +9,15 @@
 #include <string.h>
 
 enum {
-    VARIABLES_MOST = 3
+    VARIABLES_MOST = 3,
+    COPIES_MOST = 6 // of an entry: more of what refracts, in one place, no ray can go through
 };
 
 struct entry {
     str names[VARIABLES_MOST];
     bool is_triple[VARIABLES_MOST];
     uint32_t count;
+    uint32_t copies;
     uint32_t component; // in which copies are next to each other
 };
 
@@ -53,25 +55,31 @@ static void add_variable(struct generator *g, struct entry *entry, const struct 
     static const char *const names[] = {"i", "row", "größe", "石", "k_2", "n"};
     static const char *const values[] = {
         "0", "-1, 0.5", "1/4, 2*1, cos(60)", "[0, 1, 0], [0.5, -1, 1/2]", "[1, 2, 3]", "#ff8800, #0088ff"};
+    static const uint32_t sizes[] = {1, 2, 3, 2, 1, 2}; // of these lists
     const str name = str_from(names[2 * entry->count + generate_below(g, 2)]);
     struct ir_variable variable = {.name = name};
     mark(&variable, &SCHEMA_VARIABLE, "name");
     if (generate_chance(g, 40)) {
-        const uint32_t which = generate_below(g, sizeof values / sizeof *values);
+        const uint32_t wanted = generate_below(g, sizeof values / sizeof *values);
+        const uint32_t which = entry->copies * sizes[wanted] <= COPIES_MOST ? wanted : 0;
+        entry->copies *= sizes[which];
         variable.kind = IR_VARIABLE_VALUES;
         variable.values = str_from(values[which]);
         entry->is_triple[entry->count] = which > 2;
         mark(&variable, &SCHEMA_VARIABLE, "values");
     } else {
-        variable.count = (int32_t)generate_below(g, 4);
+        const uint32_t wanted = generate_below(g, 4),
+                       count = entry->copies * wanted <= COPIES_MOST ? wanted : 1;
+        variable.count = (int32_t)count;
         mark(&variable, &SCHEMA_VARIABLE, "count");
-        if (entry->count && generate_chance(g, 50)) {
+        if (entry->count && entry->copies < 3 && generate_chance(g, 50)) {
             const int row = schema_find_row(&SCHEMA_VARIABLE, STR("count"));
             variable.count = 0;
             add(g, &variable, &SCHEMA_VARIABLE.rows[row], IR_FORMULA_WHOLE,
                 with_number(g, entry, "floor(abs(", ")) + 1"));
         }
     }
+    entry->copies *= variable.count > 1 ? (uint32_t)variable.count : 1;
     entry->names[entry->count++] = name;
     ir_walk_append(g->arena, list, element, &variable);
 }
@@ -142,7 +150,7 @@ static void vary(struct generator *g, const struct entry *entry, const struct sc
 
 static void copy_entry(struct generator *g, const struct schema_element *schema, void *element) {
     const struct schema_row *list = &schema->rows[schema_find_row(schema, STR("for"))];
-    struct entry entry = {.component = generate_below(g, 3)};
+    struct entry entry = {.copies = 1, .component = generate_below(g, 3)};
     const uint32_t count = generate_chance(g, 85) ? 1 + generate_below(g, VARIABLES_MOST) : 0;
     while (entry.count < count)
         add_variable(g, &entry, list, element);
