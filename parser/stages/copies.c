@@ -76,26 +76,6 @@ static bool report_over(struct evaluation *e, const struct copy_entry *entry, do
     return false;
 }
 
-// Where no count depends on a variable, their product is known before any copy is made.
-static bool product_fits(struct evaluation *e, const struct copy_entry *entry) {
-    const uint64_t most = e->loader->input->limits->value[LIMIT_COPIES];
-    double product = 1;
-    str factors = STR("");
-    for (uint32_t i = 0; i < entry->variable_count; i++) {
-        const struct entry_variable *v = &entry->variables[i];
-        uint32_t size;
-        if (copies_used(e, entry, &SCHEMA_VARIABLE, v->ir) && !v->is_list)
-            return true;
-        if (!copies_size(e, entry, i, &size))
-            return false;
-        product *= size;
-        factors = arena_format(&e->loader->scratch, "%.*s%s%u", STR_ARG(factors), i ? " x " : ": ", size);
-    }
-    if ((double)e->copying->steps + product <= (double)most)
-        return true;
-    return report_over(e, entry, product, entry->variable_count > 1 ? factors : STR(""));
-}
-
 static void push_place(struct evaluation *e, uint32_t place) {
     struct copying *c = e->copying;
     if (c->place_count == c->place_capacity)
@@ -138,7 +118,8 @@ static bool is_kept(struct evaluation *e, const struct copy_entry *entry, bool *
 struct turning {
     struct copy_entry *entry;
     struct copied_list *list;
-    uint32_t index; // of the entry
+    uint32_t index;   // of the entry
+    bool counts_only; // and makes nothing
     uint32_t places[IR_VARIABLES_MOST];
 };
 
@@ -152,7 +133,11 @@ static bool turn(struct evaluation *e, struct turning *t, uint32_t variable) {
     uint32_t size;
     bool kept;
     if (variable == t->entry->variable_count) {
-        if ((variable && !count_place(e, t->entry)) || !is_kept(e, t->entry, &kept))
+        if (variable && !count_place(e, t->entry))
+            return false;
+        if (t->counts_only)
+            return true;
+        if (!is_kept(e, t->entry, &kept))
             return false;
         if (kept)
             push_made(e, t->list,
@@ -170,6 +155,34 @@ static bool turn(struct evaluation *e, struct turning *t, uint32_t variable) {
             return false;
     }
     return true;
+}
+
+static bool fits_by_counting(struct evaluation *e, struct copy_entry *entry) {
+    const uint64_t steps = e->copying->steps;
+    struct turning turning = {.entry = entry, .counts_only = true};
+    const bool good = turn(e, &turning, 0);
+    e->copying->steps = steps;
+    return good;
+}
+
+// Whether there are not too many, before any is made: by their product, where no count depends on a variable.
+static bool copies_fit(struct evaluation *e, struct copy_entry *entry) {
+    const uint64_t most = e->loader->input->limits->value[LIMIT_COPIES];
+    double product = 1;
+    str factors = STR("");
+    for (uint32_t i = 0; i < entry->variable_count; i++) {
+        const struct entry_variable *v = &entry->variables[i];
+        uint32_t size;
+        if (copies_used(e, entry, &SCHEMA_VARIABLE, v->ir) && !v->is_list)
+            return fits_by_counting(e, entry);
+        if (!copies_size(e, entry, i, &size))
+            return false;
+        product *= size;
+        factors = arena_format(&e->loader->scratch, "%.*s%s%u", STR_ARG(factors), i ? " x " : ": ", size);
+    }
+    if ((double)e->copying->steps + product <= (double)most)
+        return true;
+    return report_over(e, entry, product, entry->variable_count > 1 ? factors : STR(""));
 }
 
 static void replace(void *context, struct visit_place place, struct ir_reference *reference);
@@ -196,7 +209,7 @@ static void make_entry(struct evaluation *e, struct copied_list *list, struct co
     entry->is_good = copies_read_entry(e, entry);
     if (entry->is_good)
         find_used(e, entry);
-    if (entry->is_good && !e->copying->is_over && product_fits(e, entry) && !turn(e, &turning, 0))
+    if (entry->is_good && !e->copying->is_over && copies_fit(e, entry) && !turn(e, &turning, 0))
         list->count = before;
     entry->count = list->count - before;
     if (entry->count)
