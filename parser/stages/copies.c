@@ -2,11 +2,9 @@
 #include "parser/stages/copies.h"
 #include "diag/codes/binding.h"
 #include "diag/codes/limit.h"
-#include "diag/codes/reference.h"
 
 #include "core/heap.h"
 #include "grammar/ir_copy.h"
-#include "parser/bind/say.h"
 #include "parser/bind/visit.h"
 #include "parser/tree/reader_text.h"
 

@@ -55,7 +55,7 @@ static uint32_t named_in(const struct copy_entry *entry, str text) {
     str name;
     while (expression_next_name(text, &at, &name))
         for (uint32_t i = 0; i < entry->variable_count; i++)
-            if (entry->variables[i].ir && str_equal(entry->variables[i].ir->name, name)) // it was read
+            if (str_equal(entry->variables[i].ir->name, name))
                 used |= UINT32_C(1) << i | entry->variables[i].depends;
     return used;
 }

@@ -2,17 +2,11 @@
 #include "parser/stages/evaluate.h"
 #include "diag/codes/binding.h"
 #include "diag/codes/limit.h"
-#include "diag/diag_expression.h"
 
-#include "core/number.h"
 #include "grammar/ir_walk.h"
 #include "parser/bind/bind.h"
-#include "parser/bind/say.h"
-#include "parser/tree/mend.h"
 #include "parser/tree/reader_text.h"
-#include "parser/tree/tree.h"
 
-#include <math.h>
 #include <string.h>
 
 static struct diag_sink *sink(const struct evaluation *e) {

@@ -1,6 +1,5 @@
 // Parameters: each is computed after those that are in its expression.
 #include "diag/codes/binding.h"
-#include "diag/diag_expression.h"
 #include "parser/stages/evaluate.h"
 
 #include "core/heap.h"

@@ -21,7 +21,7 @@ struct ir_scene *copies_written(const struct evaluation *e) {
 
 const char *evaluation_help(struct evaluation *e, str name) {
     for (uint32_t i = e->variable_count; e->entry && i < e->entry->variable_count; i++)
-        if (e->entry->variables[i].ir && str_equal(e->entry->variables[i].ir->name, name))
+        if (str_equal(e->entry->variables[i].ir->name, name))
             return "a variable of 'for' can use those before it, not those after it: exchange them";
     if (!e->has_variables_named)
         str_map_init(&e->variables_named, &e->loader->scratch);
