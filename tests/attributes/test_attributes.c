@@ -84,6 +84,11 @@ static bool is_motion(const struct schema_element *schema) {
     return schema == &SCHEMA_ANIMATION || schema == &SCHEMA_TRACK || schema == &SCHEMA_KEYFRAME;
 }
 
+// What makes copies: they are made before a scene is drawn (tests/equal, tests/cli/run_copies.sh).
+static bool is_copying(const struct schema_element *schema) {
+    return schema == &SCHEMA_VARIABLE;
+}
+
 // What a mesh of the scene is made of: random points are not shapes (tests/unit/assets makes those).
 static bool is_made(const struct schema_element *schema) {
     const struct schema_element *const made[] = {&SCHEMA_MESH,  &SCHEMA_LATHE,   &SCHEMA_OUTLINE_POINT,
@@ -111,7 +116,8 @@ static void list_uses(struct bench *b) {
         for (uint32_t k = 0; k < schema_elements[i]->row_count && !is_motion(schema_elements[i]); k++) {
             const struct schema_element *schema = schema_elements[i];
             const struct schema_row *row = &schema->rows[k];
-            const bool asked = is_light(row) && !is_made(schema) && is_asked_for(b, schema, row);
+            const bool asked =
+                is_light(row) && !is_made(schema) && !is_copying(schema) && is_asked_for(b, schema, row);
             const uint32_t components = !asked ? 0 : row->kind == SCHEMA_WEIGHTS ? 4 : 1;
             for (uint32_t c = 0; c < components && b->count < ROWS_MAX; c++)
                 b->uses[b->count++] = (struct use){.schema = schema, .row = row, .component = c};
