@@ -103,7 +103,7 @@ static enum flatten_fault make_triangles(struct flattening *f) {
     if (fault != FLATTEN_DONE)
         return fault;
     out->triangle_count = f->item_count;
-    out->dropped_triangles = f->record_total - f->item_count;
+    out->dropped_triangles = f->record_total - f->item_count + flatten_left_out(f);
     out->shown_triangles = f->triangle_total - out->dropped_triangles;
     double start = clock_seconds();
     bool done = make_triangle_tree(f);

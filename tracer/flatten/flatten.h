@@ -53,6 +53,7 @@ struct flat_use {
     const struct mesh *mesh;
     uint32_t models, instances; // how many models show it, and how many of these are instances
     uint32_t copied;            // how many of its triangles each instance has as copies
+    uint32_t left_out;          // how many no instance shows: they are without area
     enum flat_reason reason;    // why models are copies, if any are
     int64_t saved_bytes;        // on the device, by sharing everything possible; negative: copies are smaller
 };

@@ -158,19 +158,10 @@ void flatten_use_materials(struct flattening *f, const struct scene_body *body) 
         material_flags(f, body->materials[i]);
 }
 
-// A number as kernels will see it.
-static double rounded(const struct flattening *f, double value) {
-    return f->out->is_double ? value : (double)(float)value;
-}
-
-static vec3 rounded3(const struct flattening *f, vec3 v) {
-    return (vec3){rounded(f, v.x), rounded(f, v.y), rounded(f, v.z)};
-}
-
 static struct bvh_item put_sphere(struct flattening *f, const struct scene_body *body,
                                   struct gpu_sphere record, uint32_t place, struct gpu_word *words) {
-    record.center = rounded3(f, vec3_mul(flatten_map(f, body).offset, f->factor));
-    record.radius = rounded(f, body->radius * f->factor);
+    record.center = flatten_rounded3(f, vec3_mul(flatten_map(f, body).offset, f->factor));
+    record.radius = flatten_rounded(f, body->radius * f->factor);
     gpu_pack_sphere(&record, f->out->is_double, words);
     return bvh_sphere_item(record.center, record.radius, f->out->is_double, place);
 }
@@ -181,11 +172,11 @@ static struct bvh_item put_cone(struct flattening *f, const struct scene_body *b
     const bool turned = body->radius_to < body->radius;
     const vec3 axis = mat3_column(map.linear, 1);
     const vec3 to = vec3_add(map.offset, vec3_mul(axis, body->height));
-    record.base = rounded3(f, vec3_mul(turned ? to : map.offset, f->factor));
-    record.axis = rounded3(f, turned ? vec3_neg(axis) : axis);
-    record.height = rounded(f, body->height * f->factor);
-    record.radius = rounded(f, fmin(body->radius, body->radius_to) * f->factor);
-    record.slope = rounded(f, fabs(body->radius_to - body->radius) / body->height);
+    record.base = flatten_rounded3(f, vec3_mul(turned ? to : map.offset, f->factor));
+    record.axis = flatten_rounded3(f, turned ? vec3_neg(axis) : axis);
+    record.height = flatten_rounded(f, body->height * f->factor);
+    record.radius = flatten_rounded(f, fmin(body->radius, body->radius_to) * f->factor);
+    record.slope = flatten_rounded(f, fabs(body->radius_to - body->radius) / body->height);
     record.shade |= FRUSTUM_SHADE | (turned ? FRUSTUM_TURNED : 0);
     gpu_pack_frustum(&record, f->out->is_double, words);
     const struct scene_body as_stored = {.shape = SCENE_CONE,
@@ -219,62 +210,6 @@ void flatten_spheres(struct flattening *f, struct gpu_word *words, struct bvh_it
     }
 }
 
-// The corner whose edges give the most accurate normal. The error of the cross product of two edges is about
-// a unit in the last place over the sine of their angle: the first corner is used, unless another's edges are
-// much shorter.
-static uint32_t best_corner(const vec3 corners[3]) {
-    double product[3];
-    uint32_t best = 0;
-    for (int k = 0; k < 3; k++) {
-        const vec3 u = vec3_sub(corners[(k + 1) % 3], corners[k]);
-        const vec3 v = vec3_sub(corners[(k + 2) % 3], corners[k]);
-        product[k] = vec3_length(u) * vec3_length(v);
-        if (product[k] < product[best])
-            best = (uint32_t)k;
-    }
-    return product[0] > TRIANGLE_CORNER_FACTOR * product[best] ? best : 0;
-}
-
-// Whether the tracer can compute a normal: the cross product of the rounded vertices' edges in single
-// precision, as it does it, with the edges first divided by a power of two.
-static bool has_area(const vec3 corners[3], uint32_t corner) {
-    float edge[2][3];
-    float largest = 0;
-    const vec3 p = corners[corner];
-    for (uint32_t i = 0; i < 2; i++) {
-        const vec3 q = corners[(corner + i + 1) % 3];
-        const float from[3] = {(float)p.x, (float)p.y, (float)p.z};
-        const float to[3] = {(float)q.x, (float)q.y, (float)q.z};
-        for (int k = 0; k < 3; k++) {
-            edge[i][k] = to[k] - from[k];
-            largest = fmaxf(largest, fabsf(edge[i][k]));
-        }
-    }
-    if (largest < FLT_MIN)
-        return false;
-    float scale = ldexpf(1, -ilogbf(largest));
-    for (int k = 0; k < 3; k++) {
-        int next = (k + 1) % 3;
-        int last = (k + 2) % 3;
-        float cross =
-            edge[0][next] * scale * (edge[1][last] * scale) - edge[0][last] * scale * (edge[1][next] * scale);
-        if (cross != 0)
-            return true;
-    }
-    return false;
-}
-
-// The same in double precision.
-static bool has_area64(const vec3 corners[3], uint32_t corner) {
-    const vec3 p = corners[corner];
-    vec3 u = vec3_sub(corners[(corner + 1) % 3], p), v = vec3_sub(corners[(corner + 2) % 3], p);
-    double largest = fmax(vec3_max_abs(u), vec3_max_abs(v));
-    if (largest < DBL_MIN)
-        return false;
-    double scale = ldexp(1, -ilogb(largest));
-    return vec3_max_abs(vec3_cross(vec3_mul(u, scale), vec3_mul(v, scale))) != 0;
-}
-
 static void pack_triangle(const struct flattening *f, const struct gpu_triangle *from, struct gpu_word *to) {
     if (!f->sharing.instance_count) {
         gpu_pack_triangle(from, f->out->is_double, to);
@@ -295,29 +230,16 @@ static void pack_triangle(const struct flattening *f, const struct gpu_triangle 
     gpu_pack_placed(&record, to);
 }
 
-// 0 for numbers below all normal floats: they do not belong to the scene, whose size is 1, and its record
-// could not hold them (shaders/records.h, TRIANGLE_REST).
-static double without_trace(double value) {
-    return fabs(value) < FLT_MIN ? 0 : value;
-}
-
-// `corners` relative to the origin. Writes its record if there is a tree; else its item, which
-// flatten_triangles drops if the triangle has no area.
-static void put_triangle(const struct flattening *f, const vec3 corners[3], uint32_t place, uint32_t number,
-                         uint32_t body, uint32_t shade) {
-    const bool is_double = f->out->is_double;
-    vec3 flat[3];
-    for (int k = 0; k < 3; k++) {
-        vec3 v = rounded3(f, vec3_mul(corners[k], f->factor));
-        flat[k] = (vec3){without_trace(v.x), without_trace(v.y), without_trace(v.z)};
-    }
-    const uint32_t corner = best_corner(flat);
-    struct gpu_triangle record = {.v0 = flat[0],
-                                  .v1 = flat[1],
-                                  .v2 = flat[2],
+// Writes the record of a triangle if there is a tree; else its item, which flatten_triangles drops if the
+// triangle has no area.
+static void put_triangle(const struct flattening *f, const struct flat_corners *flat, uint32_t place,
+                         uint32_t number, uint32_t body, uint32_t shade) {
+    struct gpu_triangle record = {.v0 = flat->at[0],
+                                  .v1 = flat->at[1],
+                                  .v2 = flat->at[2],
                                   .number = number,
                                   .body = body,
-                                  .shade = shade | corner << TRIANGLE_CORNER_SHIFT};
+                                  .shade = shade | flat->best << TRIANGLE_CORNER_SHIFT};
     if (f->leaf_of) {
         if (f->leaf_of[place] != FLATTEN_NO_LEAF)
             pack_triangle(f, &record,
@@ -325,8 +247,8 @@ static void put_triangle(const struct flattening *f, const vec3 corners[3], uint
         return;
     }
     struct bvh_item *item = &f->items[place];
-    *item = bvh_triangle_item(flat, is_double, place);
-    item->spare = !(is_double ? has_area64(flat, corner) : has_area(flat, corner));
+    *item = bvh_triangle_item(flat->at, f->out->is_double, place);
+    item->spare = !flat->has_area;
 }
 
 struct filling {
@@ -346,16 +268,12 @@ static uint32_t shade_of(const struct filling *fill, uint32_t triangle) {
     return fill->shade | (triangle ? TRIANGLE_SECOND_HALF : 0);
 }
 
-// The stored winding is outward: mirroring exchanges the second and third corner.
 static void fill_triangles(void *context, size_t begin, size_t end) {
     const struct filling *fill = context;
-    const bool exchanges = fill->body->mirrored;
     for (size_t i = begin; i < end; i++) {
         const uint32_t triangle = fill->copied ? fill->copied[i] : (uint32_t)i;
-        vec3 found[3];
-        scene_corners(fill->body, &fill->map, triangle, found);
-        const vec3 corners[3] = {found[0], found[exchanges ? 2 : 1], found[exchanges ? 1 : 2]};
-        put_triangle(fill->f, corners, fill->first + (uint32_t)i,
+        const struct flat_corners flat = flatten_corners(fill->f, fill->body, &fill->map, triangle);
+        put_triangle(fill->f, &flat, fill->first + (uint32_t)i,
                      fill->f->out->first_triangle[fill->number] + triangle, fill->number,
                      shade_of(fill, triangle));
     }

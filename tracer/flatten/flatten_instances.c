@@ -50,7 +50,7 @@ struct placing {
 
 struct mesh_filling {
     const struct shared_mesh *shared;
-    const bool *is_copied; // by triangle
+    const bool *is_apart; // by triangle: it is not shared
     struct gpu_word *records;
     struct bvh_item *items;
 };
@@ -121,7 +121,7 @@ static void fill_mesh(void *context, size_t begin, size_t end) {
         const struct gpu_placed record = placed_of(m->shared->mesh, (uint32_t)i);
         gpu_pack_placed(&record, m->records + i * PLACED_WORDS);
         m->items[i] = item_of(m->shared, (uint32_t)i);
-        m->items[i].spare = m->is_copied[i];
+        m->items[i].spare = m->is_apart[i];
     }
 }
 
@@ -183,24 +183,26 @@ static bool build_mesh(struct flattening *f, struct shared_mesh *shared, const s
 
 static enum flatten_fault make_mesh(struct flattening *f, struct shared_mesh *shared) {
     const size_t count = shared->mesh->triangle_count;
-    bool *is_copied = heap_zeroed(count + 1, sizeof *is_copied);
+    bool *is_apart = heap_zeroed(count + 1, sizeof *is_apart);
     struct mesh_filling filling = {
         .shared = shared,
-        .is_copied = is_copied,
+        .is_apart = is_apart,
         .records = heap_array(heap_times(count + 1, PLACED_WORDS), sizeof(struct gpu_word)),
         .items = heap_array(count + 1, sizeof *filling.items)};
-    bool done = is_copied && filling.records && filling.items;
+    bool done = is_apart && filling.records && filling.items;
     choose_space(shared);
     shared->edge = usual_edge(shared->mesh);
     done = done && shared->edge >= 0;
     if (done) {
         for (uint32_t i = 0; i < shared->copied_count; i++)
-            is_copied[shared->copied[i]] = true;
+            is_apart[shared->copied[i]] = true;
+        for (uint32_t i = 0; i < shared->left_out_count; i++)
+            is_apart[shared->left_out[i]] = true;
         done = build_mesh(f, shared, &filling);
     }
     free(filling.items);
     free(filling.records);
-    free(is_copied);
+    free(is_apart);
     return done ? FLATTEN_DONE : FLATTEN_NO_MEMORY;
 }
 

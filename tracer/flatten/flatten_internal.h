@@ -19,8 +19,9 @@ struct shared_mesh {
     const struct mesh *mesh;
     uint32_t first_use, use_count; // of sharing.uses
     uint32_t instances;
-    uint32_t *copied; // triangles that each instance has as copies, ascending
-    uint32_t copied_count;
+    uint32_t *copied;   // triangles that each instance has as copies, ascending
+    uint32_t *left_out; // triangles that no instance shows, ascending
+    uint32_t copied_count, left_out_count;
     enum flat_reason reason;
     int64_t saved_bytes;
     // The space of its tree: (mesh space - middle) * 2^exponent.
@@ -66,6 +67,18 @@ struct flattening {
     uint32_t *medium;        // by body: as in its record; NULL: rays need not know what they are inside
 };
 
+// ---- flatten_corners.c
+
+// A triangle as kernels will see it.
+struct flat_corners {
+    vec3 at[3];    // outward winding
+    uint32_t best; // the corner whose edges give the most accurate normal
+    bool has_area; // else it is dropped
+};
+// `map`: flatten_map of the body.
+struct flat_corners flatten_corners(const struct flattening *f, const struct scene_body *body,
+                                    const affine3 *map, uint32_t triangle);
+
 // ---- flatten_bodies.c
 
 // Numbers the triangles and checks the limits.
@@ -99,6 +112,13 @@ void flatten_share_finish(struct sharing *sharing);
 struct shared_mesh *flatten_shared(const struct flattening *f, uint32_t body);
 // How many triangles are copied.
 uint64_t flatten_copied(const struct flattening *f);
+// How many triangles of shared meshes are without area, those of each instance counted.
+uint32_t flatten_left_out(const struct flattening *f);
+
+// ---- flatten_thin.c
+
+// Marks the models of a mesh that are instances, and lists the triangles that they do not share.
+enum flatten_fault flatten_judge(struct flattening *f, struct shared_mesh *shared);
 
 // ---- flatten_instances.c
 
@@ -147,6 +167,13 @@ void flatten_features(struct flattening *f);
 // How a body is mapped to flat space, except for the scale: relative to the origin, in scene units.
 static inline affine3 flatten_map(const struct flattening *f, const struct scene_body *body) {
     return transform_relative(body->object_to_world, f->out->origin);
+}
+// Numbers as kernels will see them.
+static inline double flatten_rounded(const struct flattening *f, double value) {
+    return f->out->is_double ? value : (double)(float)value;
+}
+static inline vec3 flatten_rounded3(const struct flattening *f, vec3 v) {
+    return (vec3){flatten_rounded(f, v.x), flatten_rounded(f, v.y), flatten_rounded(f, v.z)};
 }
 // More than the rounding error of a bound from a box's corners.
 #define FLATTEN_BOUND (1 + 0x1p-40)

@@ -1,12 +1,5 @@
 // Decides which models become instances of the mesh that they share, and which get triangles of their own.
-//
-// An instance must show what a copy would, bit for bit. Flattening drops triangles that rounding leaves
-// without area: those that it might drop in any instance are copied for each, and if there are too many of
-// them the whole model is copied. `height` is a triangle's least height: a map by a matrix M shrinks it by at
-// most |M^-1|, which the Frobenius norm bounds.
 #include "core/heap.h"
-#include "core/parallel.h"
-#include "core/quantile.h"
 #include "diag/codes/limit.h"
 #include "scene/mesh_use.h"
 #include "tracer/flatten/flatten_internal.h"
@@ -15,167 +8,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-// The rounded corners of a triangle whose height exceeds this fraction of the instance's largest coordinate
-// have an area: 64 units of 2^-24 or 2^-53, where 40 are the sum of what moving each corner by half a unit,
-// subtracting them and the products of their cross product may add up to.
-#define HEIGHT_STEPS   0x1p-18
-#define HEIGHT_STEPS64 0x1p-47
-// More than a COPIED_PART-th of a mesh's triangles is too much to copy for an instance.
-#define COPIED_PART 32
-// How different scales may be in different directions; with numbers within these bounds all operations on
-// them, also the device's, stay away from the limits of doubles.
-#define UNEVEN_MOST  1e4
-#define NUMBER_LEAST 0x1p-200
-#define NUMBER_MOST  0x1p200
 // The least that sharing must save on the device (docs/decisions/instances.md).
 #define SAVED_LEAST (INT64_C(32) << 20)
 
 enum {
-    PIECE = 8192,
     NODE_BYTES = 9, // of the trees, for each triangle: measured on meshes of 1e3 to 1e6 triangles
 };
-
-// ---- meshes
-
-struct heights {
-    const struct mesh *mesh;
-    double *of; // by triangle
-};
-
-static double height_of(const struct mesh *mesh, size_t triangle) {
-    const uint32_t *corners = mesh->triangles[triangle].corners;
-    const vec3 p = mesh->positions[corners[0]];
-    const vec3 u = vec3_sub(mesh->positions[corners[1]], p), v = vec3_sub(mesh->positions[corners[2]], p);
-    const double longest = fmax(vec3_length(vec3_sub(v, u)), fmax(vec3_length(u), vec3_length(v)));
-    return longest > 0 ? vec3_length(vec3_cross(u, v)) / longest : 0;
-}
-
-static void measure_heights(void *context, size_t begin, size_t end) {
-    const struct heights *h = context;
-    for (size_t i = begin; i < end; i++)
-        h->of[i] = height_of(h->mesh, i);
-}
-
-static bool is_moderate(double value) {
-    return value == 0 || (fabs(value) >= NUMBER_LEAST && fabs(value) <= NUMBER_MOST);
-}
-
-static bool is_moderate3(vec3 v) {
-    return is_moderate(v.x) && is_moderate(v.y) && is_moderate(v.z);
-}
-
-static bool has_moderate_positions(const struct mesh *mesh) {
-    for (uint32_t i = 0; i < mesh->position_count; i++)
-        if (!is_moderate3(mesh->positions[i]))
-            return false;
-    return true;
-}
-
-// How many of the sorted heights are at most `most`.
-static uint32_t count_lower(const double *sorted, uint32_t count, double most) {
-    uint32_t low = 0, high = count;
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (sorted[middle] <= most)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-// ---- models
-
-static double frobenius(const mat3 *m) {
-    double sum = 0;
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++)
-            sum += m->m[i][k] * m->m[i][k];
-    return sqrt(sum);
-}
-
-static bool is_even(const struct flattening *f, const affine3 *map, double inverse) {
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++)
-            if (!is_moderate(map->linear.m[i][k] * f->factor))
-                return false;
-    const double product = frobenius(&map->linear) * inverse;
-    return is_moderate3(vec3_mul(map->offset, f->factor)) && product <= UNEVEN_MOST;
-}
-
-// The height at which triangles of a model may lose their area; negative: the model cannot be an instance.
-static double critical_height(const struct flattening *f, const struct scene_body *body) {
-    const affine3 map = flatten_map(f, body), back = transform_inverse(map);
-    const double inverse = frobenius(&back.linear);
-    if (!is_even(f, &map, inverse))
-        return -1;
-    return flatten_reach(f, body) * inverse * (f->out->is_double ? HEIGHT_STEPS64 : HEIGHT_STEPS);
-}
-
-struct judging {
-    struct flattening *f;
-    struct shared_mesh *shared;
-    double *height, *sorted, *critical; // the last by use
-};
-
-// Marks the models that are instances with 1, and records why the others are not.
-static double choose_models(struct judging *j) {
-    struct sharing *sharing = &j->f->sharing;
-    struct shared_mesh *shared = j->shared;
-    const uint32_t count = shared->mesh->triangle_count;
-    double most = 0;
-    for (uint32_t i = 0; i < shared->use_count; i++) {
-        const uint32_t body = sharing->uses[shared->first_use + i];
-        const double critical = critical_height(j->f, &j->f->scene->bodies[body]);
-        const bool few = count_lower(j->sorted, count, critical) <= count / COPIED_PART;
-        if (critical >= 0 && few) {
-            sharing->instance[body] = 1;
-            shared->instances++;
-            most = fmax(most, critical);
-        } else {
-            shared->reason = critical < 0 ? FLAT_REASON_UNEVEN : FLAT_REASON_THIN;
-        }
-    }
-    return most;
-}
-
-static bool list_copied(struct judging *j, double most) {
-    struct shared_mesh *shared = j->shared;
-    const uint32_t count = shared->mesh->triangle_count;
-    shared->copied = heap_array((size_t)count_lower(j->sorted, count, most) + 1, sizeof *shared->copied);
-    if (!shared->copied)
-        return false;
-    for (uint32_t i = 0; i < count; i++)
-        if (j->height[i] <= most)
-            shared->copied[shared->copied_count++] = i;
-    return true;
-}
-
-static bool judge_models(struct judging *j) {
-    const struct mesh *mesh = j->shared->mesh;
-    struct heights heights = {mesh, j->height};
-    if (!has_moderate_positions(mesh)) {
-        j->shared->reason = FLAT_REASON_UNEVEN;
-        return true;
-    }
-    parallel_for(mesh->triangle_count, PIECE, measure_heights, &heights);
-    for (uint32_t i = 0; i < mesh->triangle_count; i++)
-        j->sorted[i] = j->height[i];
-    quantile_sort(j->sorted, mesh->triangle_count);
-    return list_copied(j, choose_models(j));
-}
-
-static enum flatten_fault judge_mesh(struct flattening *f, struct shared_mesh *shared) {
-    const size_t count = shared->mesh->triangle_count;
-    struct judging j = {.f = f, .shared = shared};
-    j.height = heap_array(heap_times(2, count + 1), sizeof *j.height);
-    if (!j.height)
-        return FLATTEN_NO_MEMORY;
-    j.sorted = j.height + count;
-    const bool done = judge_models(&j);
-    free(j.height);
-    return done ? FLATTEN_DONE : FLATTEN_NO_MEMORY;
-}
 
 // ---- the choice
 
@@ -212,7 +50,7 @@ static void keep_copies(struct flattening *f, struct shared_mesh *shared, enum f
         f->sharing.instance[f->sharing.uses[shared->first_use + i]] = 0;
     if (shared->instances)
         shared->reason = reason;
-    shared->instances = shared->copied_count = 0;
+    shared->instances = shared->copied_count = shared->left_out_count = 0;
 }
 
 // For triangles that are not shared: in a scene with instances their records are larger.
@@ -322,6 +160,7 @@ static enum flatten_fault report_uses(struct flattening *f) {
                                                         .models = shared->use_count,
                                                         .instances = shared->instances,
                                                         .copied = shared->copied_count,
+                                                        .left_out = shared->left_out_count,
                                                         .reason = shared->reason,
                                                         .saved_bytes = shared->saved_bytes};
     }
@@ -357,6 +196,13 @@ uint64_t flatten_copied(const struct flattening *f) {
     return sum;
 }
 
+uint32_t flatten_left_out(const struct flattening *f) {
+    uint32_t sum = 0; // at most triangle_total
+    for (uint32_t i = 0; i < f->sharing.mesh_count; i++)
+        sum += f->sharing.meshes[i].instances * f->sharing.meshes[i].left_out_count;
+    return sum;
+}
+
 // Copied triangles, and all shown ones: a triangle's number must fit.
 static enum flatten_fault check_counts(const struct flattening *f) {
     const uint64_t most = f->input->limits->value[LIMIT_SCENE_TRIANGLES], copied = flatten_copied(f);
@@ -383,7 +229,7 @@ enum flatten_fault flatten_share(struct flattening *f) {
         return fault;
     if (!is_decided(f)) {
         for (uint32_t i = 0; i < f->sharing.mesh_count && fault == FLATTEN_DONE; i++)
-            fault = judge_mesh(f, &f->sharing.meshes[i]);
+            fault = flatten_judge(f, &f->sharing.meshes[i]);
         if (fault != FLATTEN_DONE)
             return fault;
         decide(f);
@@ -397,6 +243,7 @@ enum flatten_fault flatten_share(struct flattening *f) {
 void flatten_share_finish(struct sharing *sharing) {
     for (uint32_t i = 0; i < sharing->mesh_count; i++) {
         free(sharing->meshes[i].copied);
+        free(sharing->meshes[i].left_out);
         free(sharing->meshes[i].boxes);
     }
     free(sharing->meshes);

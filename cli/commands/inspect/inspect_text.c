@@ -200,9 +200,12 @@ static void instances(struct strbuf *out, const struct flat_scene *flat) {
         strbuf_format(out, "  %.*s: ", STR_ARG(use->mesh->path));
         if (use->instances) {
             strbuf_format(out, "%u models share %u triangles, which saves %.1f MiB", use->instances,
-                          use->mesh->triangle_count - use->copied, (double)use->saved_bytes / (1 << 20));
+                          use->mesh->triangle_count - use->copied - use->left_out,
+                          (double)use->saved_bytes / (1 << 20));
             if (use->copied)
                 strbuf_format(out, "; %u more are too thin for that", use->copied);
+            if (use->left_out)
+                strbuf_format(out, "; %u are without area in all", use->left_out);
             strbuf_cstr(out, use->instances < use->models ? "; " : "\n");
         }
         if (use->instances < use->models) {
