@@ -14,6 +14,13 @@
 #include "grammar/ir_value.h"
 
 struct ir_formulas; // grammar/ir_formula.h
+struct ir_copies;   // grammar/ir_copies.h
+
+#define IR_LIST(name, item)                                                                                  \
+    struct name {                                                                                            \
+        struct item *items;                                                                                  \
+        uint32_t count, capacity;                                                                            \
+    }
 
 // The fields of an enum are `unsigned` in the structs, so that the schema can derive their kind.
 enum ir_depth_limit {
@@ -165,10 +172,7 @@ struct ir_variable {
     int32_t count;
     str values; // SCHEMA_TEXT_LIST
 };
-struct ir_variables {
-    struct ir_variable *items;
-    uint32_t count, capacity;
-};
+IR_LIST(ir_variables, ir_variable);
 
 // A light that is a rectangle.
 struct ir_panel {
@@ -293,10 +297,7 @@ struct ir_map_entry {
     str from; // name of a material in the mesh
     struct ir_reference to;
 };
-struct ir_map_entries {
-    struct ir_map_entry *items;
-    uint32_t count, capacity;
-};
+IR_LIST(ir_map_entries, ir_map_entry);
 
 // ---- meshes that the file describes
 
@@ -304,18 +305,12 @@ struct ir_outline_point {
     struct ir_head head;
     struct ir_point at;
 };
-struct ir_outline {
-    struct ir_outline_point *items;
-    uint32_t count, capacity;
-};
+IR_LIST(ir_outline, ir_outline_point);
 struct ir_hole {
     struct ir_head head;
     struct ir_outline points;
 };
-struct ir_holes {
-    struct ir_hole *items;
-    uint32_t count, capacity;
-};
+IR_LIST(ir_holes, ir_hole);
 
 struct ir_lathe {
     struct ir_head head;
@@ -341,34 +336,22 @@ struct ir_vertex {
     struct ir_head head;
     vec3 at;
 };
-struct ir_vertices {
-    struct ir_vertex *items;
-    uint32_t count, capacity;
-};
+IR_LIST(ir_vertices, ir_vertex);
 struct ir_coordinate {
     struct ir_head head;
     struct ir_pair at;
 };
-struct ir_coordinates {
-    struct ir_coordinate *items;
-    uint32_t count, capacity;
-};
+IR_LIST(ir_coordinates, ir_coordinate);
 struct ir_corner {
     struct ir_head head;
     int32_t vertex;
 };
-struct ir_corners {
-    struct ir_corner *items;
-    uint32_t count, capacity;
-};
+IR_LIST(ir_corners, ir_corner);
 struct ir_face {
     struct ir_head head;
     struct ir_corners corners;
 };
-struct ir_faces_list {
-    struct ir_face *items;
-    uint32_t count, capacity;
-};
+IR_LIST(ir_faces_list, ir_face);
 struct ir_faces {
     struct ir_head head;
     struct ir_vertices vertices;
@@ -395,10 +378,7 @@ struct ir_mesh {
     struct ir_text text;
     double tolerance; // share of the size
 };
-struct ir_meshes {
-    struct ir_mesh *items;
-    uint32_t count, capacity;
-};
+IR_LIST(ir_meshes, ir_mesh);
 
 struct ir_model {
     struct ir_head head;
@@ -414,6 +394,39 @@ struct ir_model {
     vec3 scale, rotation, translation; // degrees; T·Rz·Ry·Rx·S
 };
 
+// A row of a matrix: what x, y, z and 1 are multiplied by.
+struct ir_matrix_row {
+    struct ir_head head;
+    struct ir_quad numbers;
+};
+IR_LIST(ir_matrix_rows, ir_matrix_row);
+struct ir_matrix {
+    struct ir_head head;
+    struct ir_matrix_rows rows; // three, for x, y and z
+};
+
+// The value of an object's parameter in an instance.
+struct ir_with {
+    struct ir_head head;
+    str name;
+    str value; // SCHEMA_TEXT_VALUES
+};
+IR_LIST(ir_withs, ir_with);
+
+// An object, placed. In a scene that was expanded (ir_copies.h) each copy, at any depth, is one of the
+// scene's instances.
+struct ir_instance {
+    struct ir_head head;
+    str name;
+    struct ir_variables copies; // one for each of their values; none: the entry itself
+    bool condition;             // whether there is one
+    struct ir_reference object;
+    struct ir_withs with;
+    struct ir_reference material;
+    vec3 scale, rotation, translation; // degrees; T·Rz·Ry·Rx·S
+    struct ir_matrix matrix;           // in their place, if it is written
+};
+
 struct ir_include {
     struct ir_head head;
     str file; // path as written
@@ -425,10 +438,7 @@ struct ir_keyframe {
     int32_t frame;
     str value; // SCHEMA_TEXT_VALUES
 };
-struct ir_keyframes {
-    struct ir_keyframe *items;
-    uint32_t count, capacity;
-};
+IR_LIST(ir_keyframes, ir_keyframe);
 
 // How one value of the scene moves: through `keys`, or as `value` says.
 struct ir_track {
@@ -439,10 +449,7 @@ struct ir_track {
     unsigned loop;          // ir_loop
     struct ir_keyframes keys;
 };
-struct ir_tracks {
-    struct ir_track *items;
-    uint32_t count, capacity;
-};
+IR_LIST(ir_tracks, ir_track);
 
 struct ir_animation {
     struct ir_head head;
@@ -460,51 +467,36 @@ struct ir_parameter {
     double min, max;
     str description;
 };
-struct ir_parameters {
-    struct ir_parameter *items;
-    uint32_t count, capacity;
-};
+IR_LIST(ir_parameters, ir_parameter);
 
-struct ir_includes {
-    struct ir_include *items;
-    uint32_t count, capacity;
+IR_LIST(ir_includes, ir_include);
+IR_LIST(ir_cameras, ir_camera);
+IR_LIST(ir_lights, ir_light);
+IR_LIST(ir_materials, ir_material);
+IR_LIST(ir_spheres, ir_sphere);
+IR_LIST(ir_rectangles, ir_rectangle);
+IR_LIST(ir_boxes, ir_box);
+IR_LIST(ir_cylinders, ir_cylinder);
+IR_LIST(ir_cones, ir_cone);
+IR_LIST(ir_models, ir_model);
+
+IR_LIST(ir_instances, ir_instance);
+
+// Bodies and lights that instances show, around a zero of its own.
+struct ir_object {
+    struct ir_head head;
+    str name; // empty: anonymous, written in place in an instance
+    struct ir_parameters parameters;
+    struct ir_lights lights;
+    struct ir_spheres spheres;
+    struct ir_rectangles rectangles;
+    struct ir_boxes boxes;
+    struct ir_cylinders cylinders;
+    struct ir_cones cones;
+    struct ir_models models;
+    struct ir_instances instances;
 };
-struct ir_cameras {
-    struct ir_camera *items;
-    uint32_t count, capacity;
-};
-struct ir_lights {
-    struct ir_light *items;
-    uint32_t count, capacity;
-};
-struct ir_materials {
-    struct ir_material *items;
-    uint32_t count, capacity;
-};
-struct ir_spheres {
-    struct ir_sphere *items;
-    uint32_t count, capacity;
-};
-struct ir_rectangles {
-    struct ir_rectangle *items;
-    uint32_t count, capacity;
-};
-struct ir_boxes {
-    struct ir_box *items;
-    uint32_t count, capacity;
-};
-struct ir_cylinders {
-    struct ir_cylinder *items;
-    uint32_t count, capacity;
-};
-struct ir_cones {
-    struct ir_cone *items;
-    uint32_t count, capacity;
-};
-struct ir_models {
-    struct ir_model *items;
-    uint32_t count, capacity;
-};
+IR_LIST(ir_objects, ir_object);
 
 // One file, or the whole scene after its includes were merged (then `includes` is empty).
 struct ir_scene {
@@ -527,8 +519,12 @@ struct ir_scene {
     struct ir_cylinders cylinders;
     struct ir_cones cones;
     struct ir_models models;
+    struct ir_objects objects; // named and anonymous ones; none once they were expanded
+    struct ir_instances instances;
     struct ir_animation animation; // at its defaults once a frame was taken: ir_origin.motion
     struct ir_formulas *formulas;  // of the scene and its files; NULL: none
+    const struct ir_copies
+        *copies; // of a scene that was expanded: what its bodies and lights are copies of; NULL: of none
 };
 
 // Bodies are numbered spheres, rectangles, boxes, cylinders, cones, models, each in file order.

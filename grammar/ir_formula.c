@@ -109,8 +109,3 @@ void ir_formulas_forget(const struct schema_element *schema, void *element) {
             ir_formulas_forget(row->child, schema_field(row, element));
     }
 }
-
-void ir_formulas_expand(struct ir_scene *scene) {
-    scene->formulas = NULL;
-    scene->parameters.count = 0;
-}

@@ -62,7 +62,5 @@ bool ir_formula_in(const struct ir_formulas *formulas, const struct ir_head *hea
 
 // Forgets those of an element and of all in it: what they came to stays.
 void ir_formulas_forget(const struct schema_element *schema, void *element);
-// Forgets parameters and expressions of a scene that was evaluated: what they came to stays.
-void ir_formulas_expand(struct ir_scene *scene);
 
 #endif

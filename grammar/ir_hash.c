@@ -42,6 +42,7 @@ static void hash_value(struct hash128 *h, const struct schema_row *row, const vo
     case SCHEMA_VECTOR:
     case SCHEMA_PAIR:
     case SCHEMA_POINT:
+    case SCHEMA_QUAD:
     case SCHEMA_WEIGHTS:
         for (uint32_t i = 0, count = ir_walk_components(row, field, numbers); i < count; i++)
             hash128_number(h, numbers[i]);

@@ -37,7 +37,12 @@ struct ir_point {
     double x, y;
 };
 
-// To a material or a mesh.
+// A row of a matrix: what x, y, z and 1 are multiplied by.
+struct ir_quad {
+    double x, y, z, t;
+};
+
+// To a material, a mesh or an object.
 struct ir_reference {
     str name; // as written; empty for an element in place
     uint32_t

@@ -107,6 +107,11 @@ uint32_t ir_walk_components(const struct schema_row *row, const void *field, dou
         out[0] = p->x, out[1] = p->y;
         return 2;
     }
+    if (row->kind == SCHEMA_QUAD) {
+        const struct ir_quad *q = field;
+        out[0] = q->x, out[1] = q->y, out[2] = q->z, out[3] = q->t;
+        return 4;
+    }
     if (row->kind == SCHEMA_COLOR) {
         const struct ir_color *c = field;
         out[0] = c->r, out[1] = c->g, out[2] = c->b;

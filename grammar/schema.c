@@ -2,6 +2,7 @@
 
 #include "grammar/ir.h"
 #include "grammar/schema_field.h"
+#include "grammar/schema_rows.h"
 #include "picture/formats/formats.h"
 #include "shaders/features.h"
 
@@ -201,29 +202,6 @@ static const struct schema_row panel_rows[] = {
 const struct schema_element SCHEMA_PANEL = {
     ELEMENT("panel", "Panel", ir_panel, panel_rows, "The rectangle of a light, which shines on one side.")};
 
-#define BODY_NAME(type, sample)                                                                                      \
-    {                                                                                                        \
-        .name = "name", FIELD(type, name), .example = sample, .text = SCHEMA_TEXT_NAME, .also = "id",        \
-        .counted = true,                                                                                     \
-        .doc = "Name for messages and --set."                                                                \
-    }
-#define COPIES(type)                                                                                         \
-    {.name = "for",                                                                                          \
-     .element = "For",                                                                                       \
-     FIELD(type, copies),                                                                                    \
-     .example_alone = true,                                                                                  \
-     .many = SCHEMA_NAMED_MAP,                                                                               \
-     .child = &SCHEMA_VARIABLE,                                                                              \
-     .also = "repeat copies array loop foreach for_each times instances",                                    \
-     .doc = "Makes copies: one for each value of a variable, which expressions of this entry can use."},     \
-        {.name = "if",                                                                                       \
-         FIELD(type, condition),                                                                             \
-         .example = "i != 3",                                                                                \
-         .example_alone = true,                                                                              \
-         .standard = "true",                                                                                 \
-         .also = "when where unless enabled condition",                                                      \
-         .doc = "Where it is false there is no such copy, or without 'for' no such entry."}
-
 static const struct schema_row light_rows[] = {
     BODY_NAME(ir_light, "sun"),
     COPIES(ir_light),
@@ -261,14 +239,6 @@ static const struct schema_row light_rows[] = {
 const struct schema_element SCHEMA_LIGHT = {
     ELEMENT("light", "Light", ir_light, light_rows, "A light: at a point or infinitely far away, with hard shadows, or with an extent, and soft ones."),
     .choices = {{SCHEMA_CHOICE_EXACTLY_ONE, offsetof(struct ir_light, kind)}}};
-
-#define BODY_MATERIAL(type)                                                                                  \
-    {                                                                                                        \
-        .name = "material", .element = "Material", FIELD(type, material), .example = "glass",                \
-        .also = "color colour diffuse_color shader",                                                         \
-        .child = &SCHEMA_MATERIAL,                                                                           \
-        .doc = "Name of a material, or a material of its own; if left out, the default material."             \
-    }
 
 static const struct schema_row sphere_rows[] = {
     BODY_NAME(ir_sphere, "ball"),
@@ -419,64 +389,4 @@ static const struct schema_row model_rows[] = {
 };
 const struct schema_element SCHEMA_MODEL = {
     ELEMENT("model", "Model", ir_model, model_rows, "A mesh from a file, placed in the scene.")};
-
-static const struct schema_row scene_rows[] = {
-    {.name = "glint", FIELD(ir_scene, version), .example = "1", .range = SCHEMA_RANGE_VERSION, .plain = true,
-     .required = true, .doc = "Version of the language: 1."},
-    {.name = "description", FIELD(ir_scene, description), .example = "A glass ball", .text = SCHEMA_TEXT_FREE,
-     .also = "title comment comments note notes author",
-     .doc = "Free text."},
-    {.name = "include", .element = "Include", FIELD(ir_scene, includes), .many = SCHEMA_SEQUENCE,
-     .also = "import",
-     .child = &SCHEMA_INCLUDE, .doc = "Scene files that are part of this one."},
-    {.name = "parameter", .element = "Parameter", .plural = "parameters", FIELD(ir_scene, parameters), .many = SCHEMA_NAMED_MAP,
-     .also = "variable variables param params constant constants define defines let var vars", .aside = true,
-     .child = &SCHEMA_PARAMETER, .doc = "Values with names, which expressions of the scene use."},
-    {.name = "image", .element = "Image", FIELD(ir_scene, image), .child = &SCHEMA_IMAGE,
-     .also = "film output picture resolution",
-     .doc = "The picture."},
-    {.name = "trace", .element = "Trace", FIELD(ir_scene, trace), .child = &SCHEMA_TRACE,
-     .also = "tracer render renderer settings integrator",
-     .doc = "The tracer's settings."},
-    {.name = "background", .element = "Background", FIELD(ir_scene, background), .child = &SCHEMA_BACKGROUND,
-     .also = "sky environment env world skybox",
-     .doc = "What rays that hit no body see."},
-    {.name = "ambient", .element = "Ambient", FIELD(ir_scene, ambient), .child = &SCHEMA_AMBIENT,
-     .also = "ambient_light ambient_color",
-     .doc = "Light that comes from everywhere."},
-    {.name = "camera", .element = "Camera", .plural = "cameras", FIELD(ir_scene, cameras),
-     .also = "eye viewpoint view",
-     .many = SCHEMA_NAMED_MAP, .single = "main", .child = &SCHEMA_CAMERA, .doc = "Points of view."},
-    {.name = "light", .element = "Light", .plural = "lights", FIELD(ir_scene, lights),
-     .also = "lamp lamps point_light point_lights",
-     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_LIGHT, .doc = "Lights."},
-    {.name = "material", .element = "Material", .plural = "materials", FIELD(ir_scene, materials),
-     .also = "shader shaders bsdf bsdfs",
-     .many = SCHEMA_NAMED_MAP, .child = &SCHEMA_MATERIAL, .doc = "Materials by name."},
-    {.name = "mesh", .element = "Mesh", .plural = "meshes", FIELD(ir_scene, meshes), .example_alone = true,
-     .also = "geometry geometries",
-     .many = SCHEMA_NAMED_MAP, .child = &SCHEMA_MESH, .doc = "Meshes that models show, by name."},
-    {.name = "sphere", .element = "Sphere", .plural = "spheres", FIELD(ir_scene, spheres),
-     .also = "ball balls",
-     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_SPHERE, .feature = FEATURE_SPHERES, .doc = "Spheres."},
-    {.name = "rectangle", .element = "Rectangle", .plural = "rectangles", FIELD(ir_scene, rectangles),
-     .also = "rect rects quad quads",
-     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_RECTANGLE, .feature = FEATURE_TRIANGLES, .doc = "Rectangles."},
-    {.name = "box", .element = "Box", .plural = "boxes", FIELD(ir_scene, boxes),
-     .also = "cube cubes cuboid cuboids block blocks",
-     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_BOX, .feature = FEATURE_TRIANGLES, .doc = "Boxes."},
-    {.name = "cylinder", .element = "Cylinder", .plural = "cylinders", FIELD(ir_scene, cylinders),
-     .also = "tube tubes column columns pillar pillars rod rods",
-     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_CYLINDER, .feature = FEATURE_CONES, .doc = "Cylinders."},
-    {.name = "cone", .element = "Cone", .plural = "cones", FIELD(ir_scene, cones),
-     .also = "truncated_cone truncated_cones frustum frustums",
-     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_CONE, .feature = FEATURE_CONES, .doc = "Cones, whole or cut off."},
-    {.name = "model", .element = "Model", .plural = "models", FIELD(ir_scene, models),
-     .also = "object objects shape shapes obj",
-     .many = SCHEMA_SEQUENCE, .child = &SCHEMA_MODEL, .feature = FEATURE_TRIANGLES, .doc = "Meshes placed in the scene."},
-    {.name = "animation", .element = "Animation", FIELD(ir_scene, animation), .child = &SCHEMA_ANIMATION,
-     .also = "animate motion keyframes timeline", .doc = "How values move from frame to frame."},
-};
-const struct schema_element SCHEMA_SCENE = {
-    ELEMENT("scene", "Scene", ir_scene, scene_rows, "The root of a scene file.")};
 // clang-format on

@@ -24,6 +24,7 @@ enum schema_kind {
     SCHEMA_VECTOR,    // vec3: x y z
     SCHEMA_PAIR,      // struct ir_pair: u v
     SCHEMA_POINT,     // struct ir_point: x y
+    SCHEMA_QUAD,      // struct ir_quad: x y z t
     SCHEMA_COLOR,     // struct ir_color: r g b, one number, or #rrggbb (an XML element: hex="#rrggbb")
     SCHEMA_WEIGHTS,   // struct ir_weights: diffuse specular reflection refraction
     SCHEMA_ELEMENT,   // a child struct, described by `child`
@@ -178,8 +179,8 @@ extern const struct schema_element SCHEMA_SCENE, SCHEMA_INCLUDE, SCHEMA_PARAMETE
     SCHEMA_MATERIAL, SCHEMA_PAINT, SCHEMA_CHECKER, SCHEMA_TEXTURE, SCHEMA_HIGHLIGHT, SCHEMA_MESH,
     SCHEMA_LATHE, SCHEMA_OUTLINE_POINT, SCHEMA_TORUS, SCHEMA_EXTRUDE, SCHEMA_HOLE, SCHEMA_FACES,
     SCHEMA_VERTEX, SCHEMA_UV, SCHEMA_FACE, SCHEMA_CORNER, SCHEMA_MESH_TEXT, SCHEMA_SPHERE, SCHEMA_RECTANGLE,
-    SCHEMA_BOX, SCHEMA_CYLINDER, SCHEMA_CONE, SCHEMA_MODEL, SCHEMA_MAP_ENTRY, SCHEMA_ANIMATION, SCHEMA_TRACK,
-    SCHEMA_KEYFRAME;
+    SCHEMA_BOX, SCHEMA_CYLINDER, SCHEMA_CONE, SCHEMA_MODEL, SCHEMA_MAP_ENTRY, SCHEMA_OBJECT, SCHEMA_INSTANCE,
+    SCHEMA_WITH, SCHEMA_MATRIX, SCHEMA_MATRIX_ROW, SCHEMA_ANIMATION, SCHEMA_TRACK, SCHEMA_KEYFRAME;
 
 // All elements, the scene first; NULL at the end.
 extern const struct schema_element *const schema_elements[];

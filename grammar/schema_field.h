@@ -19,6 +19,7 @@
         vec3: SCHEMA_VECTOR,                                                                                 \
         struct ir_pair: SCHEMA_PAIR,                                                                         \
         struct ir_point: SCHEMA_POINT,                                                                       \
+        struct ir_quad: SCHEMA_QUAD,                                                                         \
         struct ir_color: SCHEMA_COLOR,                                                                       \
         struct ir_weights: SCHEMA_WEIGHTS,                                                                   \
         struct ir_reference: SCHEMA_REFERENCE,                                                            \
@@ -37,6 +38,7 @@
         struct ir_faces: SCHEMA_ELEMENT,                                                                     \
         struct ir_text: SCHEMA_ELEMENT,                                                                      \
         struct ir_animation: SCHEMA_ELEMENT,                                                                 \
+        struct ir_matrix: SCHEMA_ELEMENT,                                                                    \
         struct ir_includes: SCHEMA_LIST,                                                                     \
         struct ir_parameters: SCHEMA_LIST,                                                                   \
         struct ir_cameras: SCHEMA_LIST,                                                                      \
@@ -56,6 +58,10 @@
         struct ir_cylinders: SCHEMA_LIST,                                                                    \
         struct ir_cones: SCHEMA_LIST,                                                                        \
         struct ir_models: SCHEMA_LIST,                                                                       \
+        struct ir_matrix_rows: SCHEMA_LIST,                                                                  \
+        struct ir_withs: SCHEMA_LIST,                                                                        \
+        struct ir_objects: SCHEMA_LIST,                                                                      \
+        struct ir_instances: SCHEMA_LIST,                                                                    \
         struct ir_map_entries: SCHEMA_LIST,                                                                  \
         struct ir_tracks: SCHEMA_LIST,                                                                       \
         struct ir_keyframes: SCHEMA_LIST)

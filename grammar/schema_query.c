@@ -87,6 +87,11 @@ const struct schema_element *const schema_elements[] = {
     &SCHEMA_CONE,
     &SCHEMA_MODEL,
     &SCHEMA_MAP_ENTRY,
+    &SCHEMA_OBJECT,
+    &SCHEMA_INSTANCE,
+    &SCHEMA_WITH,
+    &SCHEMA_MATRIX,
+    &SCHEMA_MATRIX_ROW,
     &SCHEMA_ANIMATION,
     &SCHEMA_TRACK,
     &SCHEMA_KEYFRAME,
@@ -136,13 +141,15 @@ int schema_find_yaml(const struct schema_element *element, str key, bool *is_sin
 }
 
 bool schema_is_attribute(const struct schema_row *row) {
-    if (row->many != SCHEMA_ONE || row->kind == SCHEMA_LIST || row->kind == SCHEMA_WEIGHTS)
+    if (row->many != SCHEMA_ONE || row->kind == SCHEMA_LIST || row->kind == SCHEMA_WEIGHTS ||
+        row->kind == SCHEMA_QUAD)
         return false;
     if (row->kind == SCHEMA_VECTOR || row->kind == SCHEMA_PAIR || row->kind == SCHEMA_POINT)
         return row->fill;
-    if (row->kind == SCHEMA_ELEMENT)
-        return schema_short_row(row->child) >= 0;
-    return true;
+    if (row->kind != SCHEMA_ELEMENT)
+        return true;
+    const int only = schema_short_row(row->child);
+    return only >= 0 && row->child->rows[only].kind != SCHEMA_LIST;
 }
 
 int schema_find_child(const struct schema_element *element, str name) {
@@ -190,6 +197,7 @@ int schema_key_row(const struct schema_element *element) {
 const char *const *schema_components(enum schema_kind kind) {
     static const char *const xyz[] = {"x", "y", "z", NULL};
     static const char *const xy[] = {"x", "y", NULL};
+    static const char *const xyzt[] = {"x", "y", "z", "t", NULL};
     static const char *const uv[] = {"u", "v", NULL};
     static const char *const rgb[] = {"r", "g", "b", NULL};
     static const char *const weights[] = {"diffuse", "specular", "reflection", "refraction", NULL};
@@ -197,6 +205,7 @@ const char *const *schema_components(enum schema_kind kind) {
     return kind == SCHEMA_VECTOR    ? xyz
            : kind == SCHEMA_PAIR    ? uv
            : kind == SCHEMA_POINT   ? xy
+           : kind == SCHEMA_QUAD    ? xyzt
            : kind == SCHEMA_COLOR   ? rgb
            : kind == SCHEMA_WEIGHTS ? weights
                                     : none;
@@ -268,7 +277,8 @@ static struct ir_color read_color(const char *text) {
 void schema_set_field(const struct schema_row *row, void *field, const char *text) {
     double n[4] = {0};
     if (row->kind == SCHEMA_INTEGER || row->kind == SCHEMA_NUMBER || row->kind == SCHEMA_VECTOR ||
-        row->kind == SCHEMA_PAIR || row->kind == SCHEMA_POINT || row->kind == SCHEMA_WEIGHTS)
+        row->kind == SCHEMA_PAIR || row->kind == SCHEMA_POINT || row->kind == SCHEMA_WEIGHTS ||
+        row->kind == SCHEMA_QUAD)
         read_numbers(text, n);
     switch (row->kind) {
     case SCHEMA_BOOLEAN:
@@ -294,6 +304,9 @@ void schema_set_field(const struct schema_row *row, void *field, const char *tex
         break;
     case SCHEMA_POINT:
         *(struct ir_point *)field = (struct ir_point){n[0], n[1]};
+        break;
+    case SCHEMA_QUAD:
+        *(struct ir_quad *)field = (struct ir_quad){n[0], n[1], n[2], n[3]};
         break;
     case SCHEMA_COLOR:
         *(struct ir_color *)field = read_color(text);

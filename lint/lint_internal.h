@@ -96,6 +96,8 @@ static inline bool lint_is_there(const struct lint_body *body) {
 str lint_words(struct lint *lint, const struct lint_body *body);
 // "sphere 'ball'", or "a sphere".
 str lint_words_other(struct lint *lint, const struct lint_body *body);
+// Whether it was made by 'for' or by an instance.
+bool lint_is_copy(const struct lint *lint, const struct lint_body *body);
 // "material 'glass'", or "this material".
 str lint_material_words(struct lint *lint, const struct ir_material *material);
 // Whether the file has the row of an element.

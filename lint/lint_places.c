@@ -14,11 +14,17 @@ enum {
     NOTE_MAX = 512
 };
 
+bool lint_is_copy(const struct lint *lint, const struct lint_body *body) {
+    const struct schema_row *list = ir_walk_pool(body->is->element);
+    const struct ir_copies *copies = lint->origin->copies;
+    return ir_copies_at(copies, list, body->is->index) || ir_copies_instance(copies, list, body->is->index);
+}
+
 // "this sphere", or of a copy "sphere spheres[2][3]"
 static str unnamed(const struct lint *lint, const struct lint_body *body, const char *word) {
     const char *kind = body->is->element->name;
     const struct schema_row *list = ir_walk_pool(body->is->element);
-    if (!ir_copies_at(lint->origin->copies, list, body->is->index))
+    if (!lint_is_copy(lint, body))
         return arena_format(lint->arena, "%s %s", word, kind);
     struct strbuf label;
     strbuf_init(&label);

@@ -91,7 +91,7 @@ static void report_repeat(struct lint *lint, const struct lint_body *body, const
     }
     diag_add(lint->sink, DIAG_COINCIDENT, at, "%.*s is at exactly the same place as another one",
              STR_ARG(words));
-    if (ir_copies_at(lint->origin->copies, ir_walk_pool(other->is->element), other->is->index))
+    if (lint_is_copy(lint, other))
         diag_note(lint->sink, there, "this is the other one: %.*s", STR_ARG(lint_words_other(lint, other)));
     else
         diag_note(lint->sink, there, "this is the other one");

@@ -3,6 +3,8 @@
 #include "lint/lint_internal.h"
 
 #include "grammar/ir.h"
+#include "grammar/ir_copies.h"
+#include "grammar/ir_walk.h"
 
 // ---- a focus without a lens
 
@@ -108,8 +110,11 @@ static bool has_pattern(const struct lint *lint, const struct lint_body *body) {
 
 static void look_at_body(struct lint *lint, const struct lint_body *body) {
     const struct schema_element *element = body->is->element;
+    // In an object another instance may give it a material with a pattern.
+    const bool is_shown_again =
+        ir_copies_instance(lint->origin->copies, ir_walk_pool(element), body->is->index);
     if (element == &SCHEMA_SPHERE && lint_is_written(body->is->head, element, "rotation") &&
-        !has_pattern(lint, body)) {
+        !is_shown_again && !has_pattern(lint, body)) {
         diag_add(lint->sink, DIAG_UNUSED_VALUE,
                  ir_place_key(lint->origin, body->is->head, element, "rotation"),
                  "'rotation' of %.*s has no effect: a sphere of one colour looks the same from all sides",

@@ -2,6 +2,7 @@
 #include "diag/codes/rule.h"
 
 #include "grammar/ir.h"
+#include "grammar/ir_copies.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 #include "load/check_allow.h"
@@ -37,10 +38,11 @@ static void apply_policy(void *context) {
 }
 
 // Whether a file only holds things for others to use: it has no body and no background, so its picture would
-// show nothing, but it defines materials, cameras or lights.
+// show nothing, but it defines materials, objects, cameras or lights.
 bool check_is_library(const struct ir_scene *scene) {
+    const uint32_t objects = scene->copies ? scene->copies->objects.count : 0;
     return ir_body_count(scene) == 0 && !scene->background.head.written &&
-           scene->materials.count + scene->cameras.count + scene->lights.count > 0;
+           scene->materials.count + scene->cameras.count + scene->lights.count + objects > 0;
 }
 
 static bool is_not_about_view(void *context, struct diag *item) {
@@ -85,7 +87,7 @@ static void count_lists(struct report_scene *out, const struct ir_scene *scene) 
     a->counts = ARENA_ARRAY(&out->arena, struct report_count, SCHEMA_SCENE.row_count);
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
         const struct schema_row *row = &SCHEMA_SCENE.rows[i];
-        if (row->kind == SCHEMA_LIST && row->child != &SCHEMA_INCLUDE)
+        if (row->kind == SCHEMA_LIST && row->child != &SCHEMA_INCLUDE && row->child != &SCHEMA_OBJECT)
             a->counts[a->count_count++] =
                 (struct report_count){schema_yaml_key(row), ir_walk_list(row, scene).count};
     }

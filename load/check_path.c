@@ -7,6 +7,7 @@
 
 struct search {
     const struct session *session;
+    const struct ir_scene *scene;
     struct arena *arena;
     span at;
     uint32_t best_size; // of the span found so far
@@ -43,7 +44,11 @@ static void walk_list(struct search *s, const struct schema_row *row, const void
         if (ir_walk_is_anonymous(row->child, item))
             continue; // written inline, where it is used
         const struct ir_head *head = ir_walk_head(item);
-        const uint32_t index = ir_copies_entry(s->session->origin.copies, row, position++);
+        const bool is_made = s->scene == s->session->scene;
+        const struct ir_copies *copies = is_made ? s->session->origin.copies : NULL;
+        const uint32_t number = position++, index = ir_copies_entry(copies, row, number);
+        if (ir_copies_instance(copies, row, number))
+            continue; // as it is written, it is in an object
         if (head->origin >= s->session->origin.elements.count)
             continue;
         const struct ir_element_origin *origin = &s->session->origin.elements.items[head->origin];
@@ -66,8 +71,8 @@ static void walk_row(struct search *s, const struct schema_row *row, const void 
         walk_list(s, row, element, path);
     } else if (row->kind == SCHEMA_ELEMENT) {
         walk_element(s, row->child, field, join(s->arena, path, str_from(row->name)));
-    } else if (row->kind == SCHEMA_REFERENCE && ir_walk_is_inline(s->session->scene, row, field)) {
-        const void *body = ir_walk_referent(s->session->scene, row, field);
+    } else if (row->kind == SCHEMA_REFERENCE && ir_walk_is_inline(s->scene, row, field)) {
+        const void *body = ir_walk_referent(s->scene, row, field);
         walk_element(s, row->child, body, join(s->arena, path, str_from(row->name)));
     }
 }
@@ -90,8 +95,14 @@ static void walk_element(struct search *s, const struct schema_element *schema, 
 }
 
 str check_scene_path(const struct session *session, struct arena *arena, span at) {
-    struct search search = {.session = session, .arena = arena, .at = at, .best_size = UINT32_MAX};
-    if (session->scene && !span_is_none(at))
-        walk_element(&search, &SCHEMA_SCENE, session->scene, STR(""));
+    struct search search = {
+        .session = session, .scene = session->scene, .arena = arena, .at = at, .best_size = UINT32_MAX};
+    if (!session->scene || span_is_none(at))
+        return search.best;
+    walk_element(&search, &SCHEMA_SCENE, session->scene, STR(""));
+    if (session->origin.copies && session->origin.copies->document) {
+        search.scene = session->origin.copies->document;
+        walk_element(&search, &SCHEMA_SCENE, search.scene, STR(""));
+    }
     return search.best;
 }

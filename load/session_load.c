@@ -212,6 +212,7 @@ static void load_assets(struct session *session, struct asset_store *store) {
     struct assets_input input = session_assets_input(session);
     assets_load(store, &input, session->options.pixels, &session->assets);
     scene_build(session->scene, &session->assets, &session->arena, &session->resolved);
+    scene_check_places(&session->resolved, &session->sink);
     scene_check_reach(&session->resolved, &session->sink);
     scene_check_triangles(&session->resolved, &session->options.limits, &session->sink);
     session->assets_seconds = clock_seconds() - start;

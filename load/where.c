@@ -34,6 +34,10 @@ bool where_find(const struct session *session, uint32_t number, uint32_t triangl
                           .name = body->name,
                           .at = ir_place_label(&session->origin, body->head),
                           .material = session->scene->materials.count};
+    out->instance = ir_copies_instance(out->copies, out->row, out->index);
+    if (out->instance)
+        out->instance_at =
+            ir_place_label(&session->origin, &session->scene->instances.items[out->instance - 1].head);
     if (!body->mesh && body->group_count) {
         out->material = scene_body_material(body, 0);
     } else if (body->mesh && triangle < body->mesh->triangle_count) {

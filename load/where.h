@@ -17,6 +17,8 @@ struct where {
     const struct schema_row *row;   // the list
     str name;                       // empty: it has none
     span at;                        // in the scene
+    uint32_t instance;              // 1 + that in whose object it is (ir_copies); 0: in none
+    span instance_at;               // in the scene
     uint32_t material;              // in assets.materials
     str material_name;              // empty: inline, or the default
     const char *material_kind; // "material", "inline material", "default material", "material of the mesh"

@@ -140,8 +140,10 @@ vec3 reference_checker_place(const struct scene_body *body, const struct surface
                                                      : 0;
         break;
     case SCENE_PARALLELOGRAM:
-        return (vec3){(s->triangle ? b[1] : b[1] + b[2]) * vec3_length(mat3_column(edges, 0)),
-                      (s->triangle ? b[1] + b[2] : b[2]) * vec3_length(mat3_column(edges, 1)), 0};
+        return (vec3){
+            (s->triangle ? b[1] : b[1] + b[2]) * (vec3_length(mat3_column(edges, 0)) * body->cells->scale.x),
+            (s->triangle ? b[1] + b[2] : b[2]) * (vec3_length(mat3_column(edges, 1)) * body->cells->scale.y),
+            0};
     case SCENE_MESH:
         for (int k = 0; k < 3; k++)
             corners[k] = vec3_mul(body->mesh->positions[body->mesh->triangles[s->triangle].corners[k]], b[k]);
@@ -149,7 +151,7 @@ vec3 reference_checker_place(const struct scene_body *body, const struct surface
             vec3_times(vec3_add(vec3_add(corners[0], corners[1]), corners[2]), body->cells->scale),
             body->cells->offset);
     }
-    return arm;
+    return vec3_times(arm, body->cells->scale);
 }
 
 // The place in a checker's coordinates, in cells.

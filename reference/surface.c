@@ -33,8 +33,8 @@ static double checker_error(const struct reference *r, const struct scene_body *
     if (!r->input.as_single)
         return 0;
     if (shape_traits(body->shape).is_flat)
-        return fmax(vec3_length(mat3_column(body->object_to_world.linear, 0)),
-                    vec3_length(mat3_column(body->object_to_world.linear, 1)));
+        return fmax(vec3_length(mat3_column(body->object_to_world.linear, 0)) * body->cells->scale.x,
+                    vec3_length(mat3_column(body->object_to_world.linear, 1)) * body->cells->scale.y);
     const vec3 offset = vec3_sub(body->object_to_world.offset, r->origin);
     const double reach = vec3_length(vec3_sub(s->point, offset));
     return (vec3_max_abs(s->point) + vec3_max_abs(offset)) * (reach > 0 ? vec3_length(place) / reach : 1);

@@ -164,6 +164,11 @@ static void put_seen(const struct pick *pick, struct strbuf *out) {
         where_body_words(found ? &where : NULL, out);
     if (found) {
         put_place(pick, where.at, out);
+        if (where.instance) {
+            strbuf_cstr(out, "\nin         ");
+            ir_copies_instance_name(where.copies, where.instance - 1, out);
+            put_place(pick, where.instance_at, out);
+        }
         strbuf_cstr(out, "\nwith       ");
         where_material_words(&where, out);
         put_place(pick, where.material_at, out);
@@ -307,6 +312,14 @@ static void json_target(struct json_writer *w, const struct pick *pick, const st
     json_write_text(w, "name", where.name);
     json_write_integer(w, "triangle", s->triangle);
     json_place(w, "place", pick, where.at);
+    if (where.instance) {
+        struct strbuf name;
+        strbuf_init(&name);
+        ir_copies_instance_name(where.copies, where.instance - 1, &name);
+        json_write_text(w, "instance", strbuf_view(&name));
+        strbuf_finish(&name);
+        json_place(w, "instance_place", pick, where.instance_at);
+    }
     json_write_text(w, "material", where.material_name);
     json_write_text(w, "material_kind", str_from(where.material_kind));
     json_place(w, "material_place", pick, where.material_at);

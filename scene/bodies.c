@@ -165,8 +165,12 @@ void scene_build_bodies(struct scene *scene, struct arena *arena) {
     struct building b = {scene, arena, ARENA_ARRAY(arena, uint32_t, total)};
     scene->bodies = ARENA_ARRAY(arena, struct scene_body, total);
     for (int i = 0; i < KIND_COUNT; i++)
-        for (uint32_t k = 0; k < counts[i]; k++)
+        for (uint32_t k = 0; k < counts[i]; k++) {
+            const affine3 *place = scene_place(scene, KINDS[i].element, k);
             KINDS[i].add(&b, k);
+            if (place)
+                scene_body_into(&scene->bodies[scene->body_count - 1], place, arena);
+        }
 }
 
 // ---- questions about bodies

@@ -27,6 +27,9 @@ static void add_mesh(struct hash128 *h, const struct mesh *mesh) {
 static void add_bodies(struct hash128 *h, const struct scene *scene) {
     for (uint32_t i = 0; i < scene->body_count; i++) {
         const struct scene_body *body = &scene->bodies[i];
+        const affine3 *place = body->element ? scene_place(scene, body->element, body->index) : NULL;
+        if (place)
+            hash128_array(h, place, 1, sizeof *place);
         uint32_t same = i; // one more than an earlier body that shows the mesh; 0: none
         hash128_array(h, body->materials, body->group_count, sizeof *body->materials);
         while (same > 0 && scene->bodies[same - 1].mesh != body->mesh)

@@ -70,6 +70,7 @@ void scene_build(const struct ir_scene *ir, const struct assets *assets, struct 
     for (uint32_t i = 0; i < assets->material_count; i++)
         out->materials[i] = material_of(&assets->materials[i], transfer);
     scene_build_textures(out, arena);
+    scene_build_places(out, arena);
     scene_build_bodies(out, arena);
 }
 

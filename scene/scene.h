@@ -136,6 +136,8 @@ struct scene_background {
 struct scene {
     const struct ir_scene *ir;
     const struct assets *assets;
+    const affine3
+        *places; // by instance (ir_scene.instances): from its object to the world; NULL: there are none
     struct scene_body *bodies;
     uint32_t body_count;
     struct scene_material *materials; // in the order of assets.materials
@@ -152,6 +154,15 @@ void scene_build(const struct ir_scene *ir, const struct assets *assets, struct 
 
 // Whether the table's element is a kind of body.
 bool scene_is_body(const struct schema_element *element);
+// From the object of the instance that an entry of the scene is in to the world; NULL: it is in none.
+const affine3 *scene_place(const struct scene *scene, const struct schema_element *element, uint32_t index);
+// The least box around all bodies of an instance, by its whole name; false: there is none, or it holds none.
+bool scene_instance_bounds(const struct scene *scene, str name, vec3 *lower, vec3 *upper);
+// By what a map scales, and whether it does so alike in all directions and keeps right angles.
+double scene_even_scale(const mat3 *linear, bool *is_even);
+// Adds an error for each instance that leaves its object no room (E417), and for each round thing that one
+// would stretch (E416).
+void scene_check_places(const struct scene *scene, struct diag_sink *sink);
 // The material of a body's triangle (0 of a sphere): an index into scene.materials.
 uint32_t scene_body_material(const struct scene_body *body, uint32_t triangle);
 // The object_to_world of a parallelogram.

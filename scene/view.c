@@ -3,6 +3,7 @@
 
 #include "core/angle.h"
 #include "grammar/ir.h"
+#include "grammar/schema.h"
 #include "scene/shape.h"
 #include "scene/transform.h"
 #include <stdlib.h>
@@ -70,6 +71,9 @@ static vec3 focus_point(const struct scene *scene, const struct ir_camera *ir) {
         if (str_equal(body->name, ir->focus_on) && shape_is_there(body))
             return shape_middle(body);
     }
+    vec3 lower, upper;
+    if (scene_instance_bounds(scene, ir->focus_on, &lower, &upper))
+        return vec3_mul(vec3_add(lower, upper), 0.5);
     return ir->position;
 }
 
@@ -138,6 +142,24 @@ void view_light_shine(struct view_light *light, vec3 place) {
     else if (light->extent == VIEW_PANEL)
         over = vec3_length(vec3_cross(light->edge_u, light->edge_v)) / (PI * distance * distance);
     light->radiance = vec3_mul(light->emission, 1 / over);
+}
+
+// From the object of an instance to the world.
+static void take_place(struct view_light *light, const affine3 *place) {
+    bool is_even;
+    if (light->directional) {
+        light->to_light = vec3_unit(mat3_apply(place->linear, light->to_light));
+        return;
+    }
+    light->position = affine3_apply(*place, light->position);
+    light->radius *= scene_even_scale(&place->linear, &is_even);
+    if (light->extent != VIEW_PANEL)
+        return;
+    const double sign = mat3_determinant(place->linear) < 0 ? -1 : 1;
+    light->edge_u = mat3_apply(place->linear, light->edge_u);
+    light->edge_v = mat3_apply(place->linear, light->edge_v);
+    light->outward =
+        vec3_mul(vec3_unit(vec3_cross(vec3_unit(light->edge_u), vec3_unit(light->edge_v))), sign);
 }
 
 static struct view_light written_light(const struct ir_light *ir, uint32_t index, unsigned transfer) {
@@ -241,7 +263,7 @@ static void find_bodies(const struct scene *scene, struct arena *arena, struct v
             take_body(&scene->bodies[i], lights, count, origin);
 }
 
-static span scene_place(const struct scene *scene) {
+static span whole_place(const struct scene *scene) {
     const struct ir_origin *origin = scene->assets->origin;
     return origin ? ir_place_label(origin, &scene->ir->head) : SPAN_NONE;
 }
@@ -253,8 +275,12 @@ static void build_lights(const struct scene *scene, struct arena *arena, struct 
     const bool automatic = count == 0 && vec3_is_zero(scene->ambient) && !scene->background.lights;
     out->light_count = automatic ? 1 : count;
     out->lights = ARENA_ARRAY(arena, struct view_light, out->light_count);
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; i < count; i++) {
+        const affine3 *place = scene_place(scene, &SCHEMA_LIGHT, i);
         out->lights[i] = written_light(&ir->lights.items[i], i, ir->image.transfer);
+        if (place)
+            take_place(&out->lights[i], place);
+    }
     if (automatic)
         out->lights[0] = (struct view_light){
             .position = out->camera.position, .emission = {1, 1, 1}, .automatic = true, .index = IR_NO_INDEX};
@@ -273,10 +299,10 @@ void view_build(const struct scene *scene, uint32_t camera_index, int32_t width,
             view_light_shine(&out->lights[i], origin_of(scene, out));
     vec3 p = out->camera.position;
     if (sink && out->camera.automatic)
-        diag_add(sink, DIAG_DEFAULT_CAMERA, scene_place(scene),
+        diag_add(sink, DIAG_DEFAULT_CAMERA, whole_place(scene),
                  "the scene has no camera; one at %.6g %.6g %.6g looks along -z", p.x, p.y, p.z);
     if (sink && out->light_count && out->lights[0].automatic)
-        diag_add(sink, DIAG_DEFAULT_LIGHT, scene_place(scene),
+        diag_add(sink, DIAG_DEFAULT_LIGHT, whole_place(scene),
                  "the scene has no light; one shines from the camera");
 }
 

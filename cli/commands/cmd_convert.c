@@ -2,7 +2,7 @@
 #include "cli/commands/commands.h"
 #include "diag/codes/limit.h"
 #include "edit/convert.h"
-#include "grammar/ir_formula.h"
+#include "grammar/ir_expand.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 
@@ -57,7 +57,7 @@ static bool expand(struct cli *cli, struct session *session) {
         diag_help(&cli->sink, "add --frame 0, or another frame");
         return false;
     }
-    ir_formulas_expand(session->scene);
+    ir_expand(session->scene, &session->arena);
     return true;
 }
 

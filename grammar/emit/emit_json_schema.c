@@ -19,7 +19,9 @@
 #define NOT_IN_NAMES                                                                                         \
     "\\u0000-,./:-@\\[-\\^`{-\\u00a9\\u00ab-\\u00b4\\u00b6-\\u00b9\\u00bb-\\u00bf\\u00d7\\u00f7"             \
     "\\u2000-\\u2bff\\u3000-\\u3004\\u3008-\\u3020\\ue000-\\uf8ff\\ufe00-\\ufe6f\\uff00-\\uff20"
-#define NAME_PATTERN "^[^0-9" NOT_IN_NAMES "][^" NOT_IN_NAMES "]{0,127}"
+#define NAME_PATTERN  "[^0-9" NOT_IN_NAMES "][^" NOT_IN_NAMES "]{0,127}"
+#define BODY_PATTERN  NAME_PATTERN EMIT_PLACES_PATTERN
+#define WHOLE_PATTERN "^" BODY_PATTERN "(/" BODY_PATTERN ")*$"
 
 static json_t *json_text(struct strbuf *text) {
     json_t *value = text->failed ? NULL : json_stringn(text->data ? text->data : "", text->len);
@@ -110,7 +112,9 @@ static json_t *text_schema(const struct schema_row *row) {
     const enum schema_text text = row->text;
     if (text == SCHEMA_TEXT_NAME || text == SCHEMA_TEXT_BODY_NAME)
         return json_pack("{s:s, s:s}", "type", "string", "pattern",
-                         row->counted ? NAME_PATTERN EMIT_PLACES_PATTERN "$" : NAME_PATTERN "$");
+                         text == SCHEMA_TEXT_BODY_NAME ? WHOLE_PATTERN
+                         : row->counted                ? "^" BODY_PATTERN "$"
+                                                       : "^" NAME_PATTERN "$");
     if (text == SCHEMA_TEXT_LIST) {
         json_t *one = json_pack("{s:[s, s], s:i}", "type", "number", "string", "minLength", 1);
         return json_pack("{s:s, s:{s:[O, {s:s, s:o, s:i, s:i}]}, s:i}", "type", "array", "items", "anyOf",
@@ -168,6 +172,7 @@ static json_t *value_schema(const struct schema_row *row) {
     case SCHEMA_VECTOR:
     case SCHEMA_PAIR:
     case SCHEMA_POINT:
+    case SCHEMA_QUAD:
     case SCHEMA_COLOR:
     case SCHEMA_WEIGHTS:
         return components_schema(row);

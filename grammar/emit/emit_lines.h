@@ -19,6 +19,9 @@
 
 // What the name of a copy ends in, as in pawn[3][0].
 #define EMIT_PLACES_PATTERN "(\\[[0-9]+\\])*"
+// Of a body in an object: chairs[3]/seat.
+#define EMIT_WHOLE_PATTERN                                                                                   \
+    EMIT_NAME_PATTERN EMIT_PLACES_PATTERN "(/" EMIT_NAME_PATTERN EMIT_PLACES_PATTERN ")*"
 
 struct emit_lines {
     struct strbuf *out;

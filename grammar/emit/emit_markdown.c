@@ -117,7 +117,7 @@ static void put_choices(struct strbuf *out, const struct schema_element *schema)
 
 static bool has_aside(const struct schema_element *schema) {
     for (uint32_t i = 0; i < schema->row_count; i++)
-        if (schema->rows[i].aside)
+        if (schema->rows[i].aside && !schema->rows[i].example_alone)
             return true;
     return false;
 }

@@ -47,7 +47,12 @@ static void add_text(struct builder *b, struct pattern *parent, const struct sch
     if (row->text == SCHEMA_TEXT_FREE)
         add(b, parent, PATTERN_TEXT, NULL, NULL);
     else
-        add(b, parent, PATTERN_TYPE, !is_name ? "some_text" : row->counted ? "body_name" : "name", NULL);
+        add(b, parent, PATTERN_TYPE,
+            !is_name                             ? "some_text"
+            : row->text == SCHEMA_TEXT_BODY_NAME ? "whole_name"
+            : row->counted                       ? "body_name"
+                                                 : "name",
+            NULL);
 }
 
 static void add_values(struct builder *b, struct pattern *parent, const struct schema_row *row) {

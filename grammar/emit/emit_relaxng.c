@@ -72,6 +72,9 @@ static void text_definitions(struct emit_lines *w) {
     emit_line(w, "<data type=\"string\"><param name=\"pattern\">" EMIT_NAME_PATTERN EMIT_PLACES_PATTERN
                  "</param></data>");
     emit_close(w, "define");
+    emit_open(w, "<define name=\"whole_name\">");
+    emit_line(w, "<data type=\"string\"><param name=\"pattern\">" EMIT_WHOLE_PATTERN "</param></data>");
+    emit_close(w, "define");
     emit_open(w, "<define name=\"some_text\">");
     emit_line(w, "<data type=\"string\"><param name=\"minLength\">1</param></data>");
     emit_close(w, "define");

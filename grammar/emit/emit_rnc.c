@@ -62,6 +62,7 @@ static void text_definitions(struct emit_lines *w) {
     emit_line(w, "\nexpression = xsd:string { pattern = \"%s\" } - no_expression", EMIT_EXPRESSION_PATTERN);
     emit_line(w, "name = xsd:string { pattern = \"" EMIT_NAME_PATTERN "\" }");
     emit_line(w, "body_name = xsd:string { pattern = \"" EMIT_NAME_PATTERN EMIT_PLACES_PATTERN "\" }");
+    emit_line(w, "whole_name = xsd:string { pattern = \"" EMIT_WHOLE_PATTERN "\" }");
     emit_line(w, "some_text = xsd:string { minLength = \"1\" }");
 }
 

@@ -69,6 +69,9 @@ void emit_type_words(const struct schema_row *row, struct strbuf *out) {
     case SCHEMA_POINT:
         strbuf_cstr(out, "point x y");
         break;
+    case SCHEMA_QUAD:
+        strbuf_cstr(out, "numbers x y z t");
+        break;
     case SCHEMA_COLOR:
         strbuf_cstr(out, "colour r g b, one number, or #rrggbb");
         break;

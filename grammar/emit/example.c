@@ -99,6 +99,9 @@ static void fill(const struct schema_element *schema, void *element, struct aren
         const struct schema_row *row = &schema->rows[i];
         bool shown =
             !row->example_alone && (row->example || row->kind == SCHEMA_LIST || row->kind == SCHEMA_ELEMENT);
+        // Of all that an object may hold, boxes.
+        if (schema == &SCHEMA_OBJECT && row->kind == SCHEMA_LIST)
+            shown = row->child == &SCHEMA_BOX;
         if (!shown || is_alternative(schema, i))
             continue;
         example_row(row, i, element, arena);
@@ -108,14 +111,14 @@ static void fill(const struct schema_element *schema, void *element, struct aren
 
 // The rows that lead from the scene to the element; returns their number, -1 if there is no way.
 static int find_path(const struct schema_element *from, const struct schema_element *to,
-                     uint32_t path[PATH_MAX_ROWS], int depth) {
+                     uint32_t path[PATH_MAX_ROWS], int depth, int most) {
     if (from == to)
         return depth;
-    for (uint32_t i = 0; i < from->row_count && depth < PATH_MAX_ROWS; i++) {
-        if (!from->rows[i].child)
+    for (uint32_t i = 0; i < from->row_count && depth < most; i++) {
+        if (!from->rows[i].child || from->rows[i].kind == SCHEMA_REFERENCE) // the scene has a list of those
             continue;
         path[depth] = i;
-        int found = find_path(from->rows[i].child, to, path, depth + 1);
+        int found = find_path(from->rows[i].child, to, path, depth + 1, most);
         if (found >= 0)
             return found;
     }
@@ -161,7 +164,9 @@ struct ir_scene *example_scene(const struct schema_element *element, struct aren
     struct ir_scene *scene = ARENA_NEW(arena, struct ir_scene);
     uint32_t path[PATH_MAX_ROWS] = {0};
     schema_init(&SCHEMA_SCENE, scene);
-    int length = find_path(&SCHEMA_SCENE, element, path, 0);
+    int length = -1;
+    for (int most = 0; most <= PATH_MAX_ROWS && length < 0; most++) // the shortest
+        length = find_path(&SCHEMA_SCENE, element, path, 0, most);
     if (length >= 0)
         fill_path(&SCHEMA_SCENE, scene, path, length, arena);
     return scene;

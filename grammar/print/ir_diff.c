@@ -249,12 +249,22 @@ static str entry_path(const struct lists *l, bool is_b, uint32_t i) {
     str name = name_of(l->row->child, entry(l, is_b, i));
     if (l->row->many == SCHEMA_NAMED_MAP)
         return join_path(d, path, name);
-    if (name.len)
-        return arena_format(d->arena, "%.*s[%.*s]", STR_ARG(path), STR_ARG(name));
     const struct ir_origin *origin = is_b ? d->b->origin : d->a->origin;
+    const struct ir_copies *copies = origin ? origin->copies : NULL;
     struct strbuf label;
     strbuf_init(&label);
-    ir_copies_index(origin ? origin->copies : NULL, l->row, i, &label);
+    if (ir_copies_instance(copies, l->row, i) && name.len) {
+        strbuf_finish(&label);
+        return name;
+    }
+    if (ir_copies_instance(copies, l->row, i)) {
+        ir_copies_label(copies, l->row, i, &label);
+        path = STR("");
+    } else if (name.len) {
+        strbuf_format(&label, "[%.*s]", STR_ARG(name));
+    } else {
+        ir_copies_index(copies, l->row, i, &label);
+    }
     path = arena_format(d->arena, "%.*s%.*s", STR_ARG(path), STR_ARG(strbuf_view(&label)));
     strbuf_finish(&label);
     return path;
@@ -278,6 +288,11 @@ static double likeness(void *context, uint32_t a, uint32_t b) {
         return same_element(l->d, l->row->child, pair.a, pair.b) ? 1 : -1;
     if (name_a.len && name_b.len)
         return -1;
+    const struct ir_copies *copies_a = l->d->a->origin ? l->d->a->origin->copies : NULL;
+    const struct ir_copies *copies_b = l->d->b->origin ? l->d->b->origin->copies : NULL;
+    if (!ir_copies_are_same(copies_a, ir_copies_instance(copies_a, l->row, a), copies_b,
+                            ir_copies_instance(copies_b, l->row, b)))
+        return -1;
     for (uint32_t i = 0; i < l->row->child->row_count; i++) {
         if (!written_in_either(l->row->child, i, pair.a, pair.b))
             continue;
@@ -287,6 +302,22 @@ static double likeness(void *context, uint32_t a, uint32_t b) {
         all++;
     }
     return all ? (double)equal / all : 1;
+}
+
+// What an entry says, and whose it is.
+static str content_of(const struct lists *l, bool is_b, uint32_t i) {
+    struct differ *d = l->d;
+    const struct ir_origin *origin = is_b ? d->b->origin : d->a->origin;
+    const str text = item_text(d, is_b ? d->b : d->a, l->row->child, entry(l, is_b, i));
+    const uint32_t instance = ir_copies_instance(origin ? origin->copies : NULL, l->row, i);
+    if (!instance)
+        return text;
+    struct strbuf name;
+    strbuf_init(&name);
+    ir_copies_instance_name(origin->copies, instance - 1, &name);
+    const str both = arena_format(d->arena, "%.*s/%.*s", STR_ARG(strbuf_view(&name)), STR_ARG(text));
+    strbuf_finish(&name);
+    return both;
 }
 
 static void align_lists(struct lists *l) {
@@ -302,9 +333,9 @@ static void align_lists(struct lists *l) {
         b_keys[i] = name_of(l->row->child, entry(l, true, i));
     ir_align_keys(&l->align, a_keys, b_keys);
     for (uint32_t i = 0; i < a_count; i++)
-        a_keys[i] = l->align.b_of_a[i] < 0 ? item_text(d, d->a, l->row->child, entry(l, false, i)) : STR("");
+        a_keys[i] = l->align.b_of_a[i] < 0 ? content_of(l, false, i) : STR("");
     for (uint32_t i = 0; i < b_count; i++)
-        b_keys[i] = l->align.a_of_b[i] < 0 ? item_text(d, d->b, l->row->child, entry(l, true, i)) : STR("");
+        b_keys[i] = l->align.a_of_b[i] < 0 ? content_of(l, true, i) : STR("");
     ir_align_keys(&l->align, a_keys, b_keys);
     ir_align_rest(&l->align, likeness, l);
 }

@@ -81,6 +81,7 @@ static void put_value(struct json_writer *w, const struct print_value *v, uint32
     case SCHEMA_VECTOR:
     case SCHEMA_PAIR:
     case SCHEMA_POINT:
+    case SCHEMA_QUAD:
     case SCHEMA_COLOR:
     case SCHEMA_WEIGHTS:
         put_numbers(w, v);

@@ -48,6 +48,7 @@ static bool value_is_attribute(const struct xml_writer *w, const struct print_va
         return inner && value_is_attribute(w, &(struct print_value){inner, field, -1});
     }
     case SCHEMA_WEIGHTS:
+    case SCHEMA_QUAD:
     case SCHEMA_LIST:
         return false;
     default:

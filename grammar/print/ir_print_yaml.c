@@ -107,6 +107,7 @@ static void flow_value(struct yaml_writer *w, const struct print_value *v, struc
     case SCHEMA_VECTOR:
     case SCHEMA_PAIR:
     case SCHEMA_POINT:
+    case SCHEMA_QUAD:
     case SCHEMA_COLOR:
     case SCHEMA_WEIGHTS:
         flow_numbers(w, v, out);

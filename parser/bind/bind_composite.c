@@ -215,6 +215,8 @@ static void store(enum schema_kind kind, const double n[COMPONENTS_MAX], void *o
         *(struct ir_pair *)out = (struct ir_pair){n[0], n[1]};
     else if (kind == SCHEMA_POINT)
         *(struct ir_point *)out = (struct ir_point){n[0], n[1]};
+    else if (kind == SCHEMA_QUAD)
+        *(struct ir_quad *)out = (struct ir_quad){n[0], n[1], n[2], n[3]};
     else if (kind == SCHEMA_COLOR)
         *(struct ir_color *)out = (struct ir_color){.r = n[0], .g = n[1], .b = n[2]};
     else

@@ -378,6 +378,18 @@ static bool bind_word(struct bind_context *context, struct bind_subject subject,
 
 // Text.
 
+// Of a body, which may be in objects, with the places of copies: chairs[3]/seat.
+static bool is_whole_name(str text) {
+    for (;;) {
+        const char *slash = text.len ? memchr(text.ptr, '/', text.len) : NULL;
+        if (!str_is_name(ir_copies_base(slash ? str_slice(text, 0, (size_t)(slash - text.ptr)) : text)))
+            return false;
+        if (!slash)
+            return true;
+        text = str_slice(text, (size_t)(slash - text.ptr) + 1, text.len);
+    }
+}
+
 bool bind_name_text(struct bind_context *context, struct bind_subject subject, str text, span at) {
     enum schema_text kind = subject.row->text;
     bool may_be_empty = subject.row->kind == SCHEMA_TEXT && kind == SCHEMA_TEXT_FREE;
@@ -391,7 +403,8 @@ bool bind_name_text(struct bind_context *context, struct bind_subject subject, s
     }
     const bool is_name = kind == SCHEMA_TEXT_NAME || kind == SCHEMA_TEXT_BODY_NAME;
     if (subject.row->kind != SCHEMA_TEXT || !is_name ||
-        str_is_name(subject.row->counted ? ir_copies_base(text) : text))
+        (kind == SCHEMA_TEXT_BODY_NAME ? is_whole_name(text)
+                                       : str_is_name(subject.row->counted ? ir_copies_base(text) : text)))
         return true;
     diag_add(context->sink, DIAG_BAD_NAME, at, "'%.*s' is not a name",
              STR_ARG(say_text(context->scratch, text)));

@@ -150,6 +150,8 @@ str say_expected(struct arena *arena, const struct schema_row *row) {
         return row->fill ? STR("two numbers u, v, or one number for both") : STR("two numbers u, v");
     case SCHEMA_POINT:
         return STR("two numbers x, y");
+    case SCHEMA_QUAD:
+        return STR("four numbers x, y, z, t");
     case SCHEMA_COLOR:
         return STR("a colour (three numbers r, g, b, one number for all three, or #rrggbb)");
     case SCHEMA_WEIGHTS:

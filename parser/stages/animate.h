@@ -52,6 +52,14 @@ struct motion {
     int32_t step; // from one frame that is checked to the next
 };
 
+// animate_target.c
+// Takes what a path leads to as what a track moves. false: it cannot move (reported).
+bool moving_take_target(const struct motion *motion, struct moving *m, const struct override_target *target);
+
+// animate_copies.c
+// Adds a track, for each copy that it moves. false: it cannot move (reported).
+bool moving_push_all(struct motion *motion, struct moving *m);
+
 // animate_tracks.c: finds the targets of the tracks, and reads their keys. Tracks with mistakes are reported
 // and left out.
 void motion_find(struct motion *motion);

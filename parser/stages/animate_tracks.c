@@ -37,163 +37,6 @@ static span target_place(const struct motion *motion, const struct ir_track *tra
     return place ? place->value : ir_place_label(origin(motion), &track->head);
 }
 
-// ---- the target of a track
-
-static bool cannot_move(const struct motion *motion, const struct moving *m, const char *why) {
-    diag_add(sink(motion), DIAG_TRACK_TARGET, m->path->path, "%.*s %s",
-             STR_ARG(say_subject(scratch(motion), m->subject)), why);
-    return false;
-}
-
-static bool is_in_use(const struct bind_frame *frame, const struct schema_row *row) {
-    unsigned tag;
-    if (row->choice == 0)
-        return true;
-    memcpy(&tag, (const char *)frame->memory + frame->schema->choices[row->choice - 1].tag_offset,
-           sizeof tag);
-    return tag == row->alternative;
-}
-
-// An alternative that the scene does not use would replace the one that it uses.
-static bool not_in_use(const struct motion *motion, const struct moving *m) {
-    const char *other = NULL;
-    for (uint32_t i = 0; i < m->frame->schema->row_count; i++) {
-        const struct schema_row *row = &m->frame->schema->rows[i];
-        if (row->choice == m->row->choice && row != m->row && is_in_use(m->frame, row))
-            other = schema_yaml_key(row);
-    }
-    cannot_move(motion, m, "is not what the scene uses");
-    if (other)
-        diag_help(sink(motion), "it uses '%s': move that, or write '%s' in its place", other, m->row->name);
-    return false;
-}
-
-// A colour that is an element, such as diffuse_color, stands for its short row.
-static void enter_short(const struct motion *motion, struct moving *m) {
-    const int bare = m->row->kind == SCHEMA_ELEMENT ? schema_short_row(m->row->child) : -1;
-    if (bare < 0)
-        return;
-    struct bind_frame *child = ARENA_NEW(scratch(motion), struct bind_frame);
-    *child = (struct bind_frame){.parent = m->frame,
-                                 .schema = m->row->child,
-                                 .via = m->row,
-                                 .memory = schema_field(m->row, m->frame->memory),
-                                 .label = m->path->path,
-                                 .bare = true};
-    m->frame = child;
-    m->row_number = (uint32_t)bare;
-    m->row = &child->schema->rows[bare];
-    m->subject = bind_subject(child, m->row);
-}
-
-static bool take_whole(const struct motion *motion, struct moving *m, char *field) {
-    const char *const *names = schema_components(m->row->kind);
-    if (m->row->kind != SCHEMA_NUMBER && !names[0])
-        return cannot_move(motion, m,
-                           m->row->kind == SCHEMA_LIST || m->row->kind == SCHEMA_ELEMENT
-                               ? "holds several values: move one of them"
-                               : "is not a number that can move; --sweep renders with other values");
-    m->width = names[0] ? 0 : 1;
-    while (names[0] && names[m->width])
-        m->width++;
-    m->color = m->row->kind == SCHEMA_COLOR ? (struct ir_color *)(void *)field : NULL;
-    m->fills = m->row->fill || m->color;
-    m->field = (double *)(void *)field;
-    return true;
-}
-
-// A component of a value that is computed as a whole is not there, and what moves by itself is moved once.
-static bool is_free(const struct motion *motion, const struct moving *m,
-                    const struct override_target *target) {
-    const struct ir_formulas *formulas = motion->scene->formulas;
-    const bool whole = target->kind == OVERRIDE_ROW || target->component == OVERRIDE_WHOLE_SLOT;
-    for (uint32_t i = formulas ? bind_head(m->frame)->formulas : 0; i; i = formulas->items[i].next) {
-        const struct ir_formula *f = &formulas->items[i];
-        struct expression expression;
-        struct expression_fault fault;
-        if (f->row != m->row || (target->slot >= 0 && f->slot != target->slot))
-            continue;
-        if (!whole && f->component == IR_FORMULA_WHOLE)
-            return cannot_move(motion, m, "is computed as a whole: move all of it");
-        if ((!whole && f->component != (int)target->component) ||
-            !expression_compile(f->text, &motion->evaluation->scope, scratch(motion), &expression, &fault) ||
-            !expression.moves)
-            continue;
-        diag_add(sink(motion), DIAG_TRACK_TWICE, m->path->path, "%.*s moves by itself already",
-                 STR_ARG(say_subject(scratch(motion), m->subject)));
-        diag_note(sink(motion), f->at, "its value depends on the frame");
-        return false;
-    }
-    return true;
-}
-
-// A parameter's value in frames is among those that expressions see.
-static bool take_parameter(const struct motion *motion, struct moving *m, uint32_t index) {
-    struct parameter *p = &motion->evaluation->items[index];
-    m->row_number = (uint32_t)schema_short_row(&SCHEMA_PARAMETER);
-    m->row = &SCHEMA_PARAMETER.rows[m->row_number];
-    m->subject = bind_subject(m->frame, NULL);
-    if (p->state != PARAMETER_DONE)
-        return false; // reported
-    if (p->value.type == EXPRESSION_TRUTH)
-        return cannot_move(motion, m, "is true or false, which cannot move");
-    m->parameter = index + 1;
-    m->width = p->value.type == EXPRESSION_TRIPLE ? 3 : 1;
-    m->field = motion->evaluation->values + (size_t)EXPRESSION_WIDTH * index;
-    p->is_used = true;
-    p->is_moved = true;
-    return true;
-}
-
-static bool take_target(const struct motion *motion, struct moving *m, const struct override_target *target) {
-    const struct schema_row *list = &target->frame->schema->rows[target->row];
-    if (target->kind == OVERRIDE_ENTRY && list->child == &SCHEMA_PARAMETER) {
-        struct bind_frame *frame = ARENA_NEW(scratch(motion), struct bind_frame);
-        *frame = (struct bind_frame){.parent = target->frame,
-                                     .schema = &SCHEMA_PARAMETER,
-                                     .via = list,
-                                     .memory = &motion->scene->parameters.items[target->entry],
-                                     .name = motion->scene->parameters.items[target->entry].name,
-                                     .label = m->path->path};
-        m->frame = frame;
-        return take_parameter(motion, m, target->entry);
-    }
-    m->frame = target->frame;
-    m->row_number = target->row;
-    m->row = &m->frame->schema->rows[target->row];
-    m->subject = bind_subject(m->frame, m->row);
-    if (m->row->child == &SCHEMA_VARIABLE || m->frame->schema == &SCHEMA_VARIABLE)
-        return cannot_move(motion, m, "says which copies there are, and they are the same in all frames");
-    if (target->kind == OVERRIDE_ENTRY)
-        return cannot_move(motion, m, "holds several values: move one of them");
-    for (const struct bind_frame *f = m->frame; f; f = f->parent)
-        if (f->schema == &SCHEMA_ANIMATION || m->row->child == &SCHEMA_ANIMATION)
-            return cannot_move(motion, m, "is of the animation, which cannot move itself");
-    enter_short(motion, m);
-    if (!is_in_use(m->frame, m->row))
-        return not_in_use(motion, m);
-    if (bind_head(m->frame)->poisoned & bind_bit(m->row_number))
-        return false; // reported
-    m->slot = target->slot;
-    m->component = target->kind == OVERRIDE_ROW || target->component == OVERRIDE_WHOLE_SLOT
-                       ? IR_FORMULA_WHOLE
-                       : (int)target->component;
-    if (!is_free(motion, m, target))
-        return false;
-    char *field = schema_field(m->row, m->frame->memory);
-    if (target->slot > 0)
-        field += (size_t)target->slot * m->row->size;
-    m->subject.index = target->slot;
-    if (target->kind == OVERRIDE_ROW || target->component == OVERRIDE_WHOLE_SLOT)
-        return take_whole(motion, m, field);
-    if (m->row->kind == SCHEMA_COLOR && ((struct ir_color *)(void *)field)->is_hex)
-        return cannot_move(motion, m, "is written as #rrggbb, which has no components; move all of it");
-    m->subject.component = schema_components(m->row->kind)[target->component];
-    m->field = (double *)(void *)field + target->component;
-    m->width = 1;
-    return true;
-}
-
 // ---- values
 
 static bool wrong_count(const struct motion *motion, const struct moving *m, span at, uint32_t count) {
@@ -464,49 +307,6 @@ static void tell_counted(const struct motion *motion, const struct override *pat
     }
 }
 
-static void push(struct motion *motion, const struct moving *m) {
-    if (ARENA_IS_FULL(motion))
-        motion->items = arena_regrow(motion->loader->input->arena, motion->items, motion->count,
-                                     &motion->capacity, sizeof *motion->items);
-    motion->items[motion->count++] = *m;
-}
-
-// What is written for a copy moves with all copies. false: it cannot move (reported).
-static bool push_all(struct motion *motion, struct moving *m) {
-    struct override *path = m->path;
-    struct override_target target;
-    bool single;
-    const int number = schema_find_yaml(&SCHEMA_SCENE, path->steps[0].text, &single);
-    const struct schema_row *row = number < 0 ? NULL : &SCHEMA_SCENE.rows[number];
-    struct override_step *step = &path->steps[1];
-    uint32_t count = 1, first = 0;
-    if (!motion->evaluation || !motion->evaluation->copying) {
-        push(motion, m);
-        return true;
-    }
-    if (row && row->kind == SCHEMA_LIST && row->many == SCHEMA_SEQUENCE && path->step_count > 1)
-        first = copies_of(motion->evaluation, row, path->entry, &count);
-    else
-        row = NULL;
-    path->scene = motion->scene;
-    for (uint32_t i = 0; i < count; i++) {
-        if (row) {
-            step->kind = OVERRIDE_INDEX;
-            step->index = first + i;
-            copies_enter(motion->evaluation, row, first + i);
-        }
-        const bool good = override_walk(path, &target) && take_target(motion, m, &target);
-        copies_leave(motion->evaluation);
-        if (!good)
-            return false;
-        m->is_repeat = i > 0;
-        // Copies may share a material in place.
-        if (i == 0 || m->field != motion->items[motion->count - 1].field)
-            push(motion, m);
-    }
-    return true;
-}
-
 static bool read_track(struct motion *motion, const struct ir_track *track) {
     struct loader *loader = motion->loader;
     struct override *path = ARENA_NEW(scratch(motion), struct override);
@@ -522,7 +322,7 @@ static bool read_track(struct motion *motion, const struct ir_track *track) {
     path->source = path->track.source;
     *m = (struct moving){.track = track, .path = path};
     if (!has_one_form(motion, track) || !override_parse_path(path) || !override_walk(path, &target) ||
-        !take_target(motion, m, &target))
+        !moving_take_target(motion, m, &target))
         return false;
     tell_counted(motion, path);
     if (track->keys.count ? !take_keys(motion, m)
@@ -530,7 +330,7 @@ static bool read_track(struct motion *motion, const struct ir_track *track) {
         return false;
     for (uint32_t i = 0; i < m->text.count && !track->keys.count; i++)
         m->cost += m->text.values[i].cost;
-    return push_all(motion, m);
+    return moving_push_all(motion, m);
 }
 
 // ---- two tracks for one value

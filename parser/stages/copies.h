@@ -17,9 +17,20 @@ struct entry_variable {
     struct expression expression;
 };
 
-// An entry that is written with `for` or `if`.
+// What an instance gives a parameter of its object.
+struct given_value {
+    const struct ir_with *ir; // NULL: nothing
+    struct computed value;
+};
+
+struct object;
+
+// An entry that is written with `for` or `if`, an instance, or one of an object.
 struct copy_entry {
-    const struct schema_row *row; // the scene's list
+    const struct schema_row *row; // the list that it is in, of the scene or of an object
+    const struct object *in;      // the object; NULL: of the scene
+    struct object *object;        // of an instance: what it shows; NULL: another entry, or it is wrong
+    struct given_value *given;    // by parameter of the object
     void *memory;                 // as written
     struct bind_frame *frame;
     struct entry_variable *variables;
@@ -30,22 +41,32 @@ struct copy_entry {
     uint32_t used;  // bit i: an expression has variable i in it
     uint64_t count; // of copies
     bool is_good;   // its variables, count and condition can be read
+    bool is_made;   // at least once
 };
 
 struct copy_clone {
     const struct copy_entry *entry;
-    uint32_t places;
+    uint32_t places, instance;
+};
+// The names in reach that something in place depends on, by their number there.
+struct used_names {
+    uint16_t *items;
+    uint32_t count;
+    bool is_known;
 };
 
 // A list of the scene.
 struct copied_list {
+    uint32_t written;            // entries of the scene's list
     struct copy_entry **entries; // of bodies and lights; NULL: all are as written; an item: this one is
+    bool is_copied;              // some are not
     uint32_t *first;             // of each entry, among what was made
     struct ir_copy *made;
     uint32_t count, capacity;
     // of materials and meshes, some of which are in place in an entry with variables
     uint32_t own;              // so many are as written
     bool *is_replaced;         // by clones
+    struct used_names *used;   // by item
     struct copy_clone *clones; // they follow those of their own
     uint32_t clone_count, clone_capacity;
 };
@@ -61,15 +82,48 @@ struct copying {
 };
 
 // copies_reach.c
+// A pool of the scene has items that clones replace.
+void copies_list_pool(struct evaluation *e, const struct schema_row *pool);
 struct copied_list *copies_list(const struct evaluation *e, const struct schema_row *row);
+// The names that an entry sees come into reach, without values.
+void copies_enter_types(struct evaluation *e, const struct copy_entry *entry);
 // Gives a variable one of its values.
 bool copies_set(struct evaluation *e, const struct copy_entry *entry, uint32_t variable, uint32_t place);
+
+// copies.c
+struct copy_entry *copies_new_entry(struct evaluation *e, const struct schema_row *row, void *memory);
+// Reads the formulas of an entry, and of what is in place in it, of which no copies are made.
+void copies_read_types(struct evaluation *e, struct copy_entry *entry);
+// Adds what `for` and `if` make of an entry to a list of the scene.
+void copies_make_entry(struct evaluation *e, struct copied_list *list, struct copy_entry *entry,
+                       uint32_t index, uint32_t instance);
+
+// Whether an entry has `for` or `if`.
+bool copies_is_copied(const struct schema_row *row, const void *entry);
+// Adds an item to what was made of a list.
+void copies_push(struct evaluation *e, struct copied_list *list, struct ir_copy copy);
+// Keeps the places of a copy; returns where (ir_copies.places).
+uint32_t copies_push_places(struct evaluation *e, const uint32_t *places, uint32_t count);
+// `for` and `if` of an item are carried out.
+void copies_clear_rows(const struct schema_element *schema, void *item);
+
+// copies_fill.c
+// Gives the scene's lists what was made.
+void copies_fill(struct evaluation *e);
+
+// copies_reach.c
+// The entry that an item of a list comes from; NULL: it is as written.
+struct copy_entry *copies_entry(const struct evaluation *e, const struct schema_row *row,
+                                const struct ir_copy *copy);
 
 // copies_variables.c
 // Reads the variables and the condition of an entry. false: one of them is wrong (reported, or known).
 bool copies_read_entry(struct evaluation *e, struct copy_entry *entry);
 // The number of values of a variable, for the values of those before it. false: reported.
 bool copies_size(struct evaluation *e, const struct copy_entry *entry, uint32_t variable, uint32_t *size);
+// Marks the names in reach that expressions in an element have in them.
+void copies_mark_used(const struct evaluation *e, const struct schema_element *schema, const void *memory,
+                      bool *is_used);
 // Bit i: an expression in an element has variable i in it.
 uint32_t copies_used(const struct evaluation *e, const struct copy_entry *entry,
                      const struct schema_element *schema, const void *memory);

@@ -2,7 +2,7 @@
 // warnings, and what cameras are focused on.
 #include "diag/codes/binding.h"
 #include "diag/codes/reference.h"
-#include "parser/stages/copies.h"
+#include "parser/stages/objects.h"
 
 #include "parser/bind/visit.h"
 
@@ -18,7 +18,7 @@ void copies_finish(struct evaluation *e) {
         const struct copied_list *list = &e->copying->lists[i];
         const struct ir_any_list items = ir_walk_list(row, e->scene);
         for (uint32_t k = 0; list->made && k < items.count; k++)
-            if (list->made[k].places)
+            if (list->made[k].places || list->made[k].instance || row->child == &SCHEMA_INSTANCE)
                 ir_formulas_forget(row->child, ir_walk_item(row, items, k));
         for (uint32_t k = list->own; list->is_replaced && k < items.count; k++)
             ir_formulas_forget(row->child, ir_walk_item(row, items, k));
@@ -41,12 +41,11 @@ static void tell_unused(const struct evaluation *e, const struct copy_entry *ent
 void copies_tell_unused(const struct evaluation *e) {
     for (uint32_t i = 0; e->copying && i < SCHEMA_SCENE.row_count; i++) {
         const struct copied_list *list = &e->copying->lists[i];
-        const uint32_t count =
-            list->entries ? ir_walk_list(&SCHEMA_SCENE.rows[i], &e->copying->written).count : 0;
-        for (uint32_t k = 0; k < count; k++)
+        for (uint32_t k = 0; k < list->written; k++)
             if (list->entries[k] && list->entries[k]->is_good && list->entries[k]->count > 1)
                 tell_unused(e, list->entries[k]);
     }
+    objects_tell_unused(e);
 }
 
 // ---- what cameras are focused on
@@ -54,9 +53,7 @@ void copies_tell_unused(const struct evaluation *e) {
 static const struct copy_entry *find_entry(const struct evaluation *e, str name) {
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
         const struct copied_list *list = &e->copying->lists[i];
-        const uint32_t count =
-            list->entries ? ir_walk_list(&SCHEMA_SCENE.rows[i], &e->copying->written).count : 0;
-        for (uint32_t k = 0; k < count; k++)
+        for (uint32_t k = 0; k < list->written; k++)
             if (list->entries[k] && str_equal(list->entries[k]->frame->name, name))
                 return list->entries[k];
     }
@@ -86,12 +83,16 @@ void copies_check_focus(struct evaluation *e) {
     for (uint32_t i = 0; e->copying && i < cameras->count; i++) {
         const str name = cameras->items[i].focus_on;
         const struct copy_entry *entry = name.len ? find_entry(e, ir_copies_base(name)) : NULL;
+        const bool is_inside = name.len && memchr(name.ptr, '/', name.len);
         str similar = STR("");
-        if (!entry || !entry->is_good || has_body(e, name, &similar))
+        if (is_inside ? e->loader->incomplete || sink(e)->errors || has_body(e, name, &similar)
+                      : !entry || !entry->is_good || has_body(e, name, &similar))
             continue;
         const span at =
             ir_place_value(&e->loader->output->origin, &cameras->items[i].head, &SCHEMA_CAMERA, "focus_on");
-        if (entry->count)
+        if (is_inside)
+            diag_add(sink(e), DIAG_UNKNOWN_BODY, at, "there is no body '%.*s'", STR_ARG(name));
+        else if (entry->count)
             diag_add(sink(e), DIAG_UNKNOWN_BODY, at, "there is no body '%.*s': of '%.*s' there %s %llu cop%s",
                      STR_ARG(name), STR_ARG(entry->frame->name), entry->count == 1 ? "is" : "are",
                      (unsigned long long)entry->count, entry->count == 1 ? "y" : "ies");

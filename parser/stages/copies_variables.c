@@ -39,7 +39,9 @@ static bool name_fits(const struct evaluation *e, const struct entry_variable *v
         return false;
     for (uint32_t i = 0; i < e->variable_count; i++)
         if (str_equal(e->names[e->count + i], name)) {
-            diag_add(sink(e), DIAG_VARIABLE, at, "two variables of this entry have the name '%.*s'",
+            diag_add(sink(e), DIAG_VARIABLE, at,
+                     i < e->base ? "the variable '%.*s' has the name of one around it, or of a parameter"
+                                 : "two variables of this entry have the name '%.*s'",
                      STR_ARG(name));
             diag_help(sink(e), "rename one of the two");
             return false;
@@ -130,9 +132,9 @@ static bool read_variable(struct evaluation *e, struct copy_entry *entry, uint32
     if (v->ir->head.poisoned || !name_fits(e, v) ||
         !(v->is_list ? read_values(e, v, type) : read_count(e, entry, v)))
         return false;
-    e->names[e->count + i] = v->ir->name;
-    e->variables[i] = *type;
-    e->variable_count = i + 1;
+    e->names[e->count + e->base + i] = v->ir->name;
+    e->variables[e->base + i] = *type;
+    e->variable_count = e->base + i + 1;
     return true;
 }
 
@@ -158,10 +160,15 @@ bool copies_read_entry(struct evaluation *e, struct copy_entry *entry) {
     const struct ir_any_list list = ir_walk_list(&schema->rows[row], entry->memory);
     if (ir_walk_head(entry->memory)->poisoned & bind_bit(row))
         return false;
-    if (list.count > IR_VARIABLES_MOST) {
-        const struct ir_variable *v = ir_walk_item(&schema->rows[row], list, IR_VARIABLES_MOST);
-        diag_add(sink(e), DIAG_VARIABLE, place_of(e, v, "name"),
-                 "an entry can have %d variables; this one has %u", IR_VARIABLES_MOST, list.count);
+    if (list.count > IR_VARIABLES_MOST || e->base + list.count > REACH_MOST) {
+        const uint32_t beyond = list.count > IR_VARIABLES_MOST ? IR_VARIABLES_MOST : 0;
+        const struct ir_variable *v = ir_walk_item(&schema->rows[row], list, beyond);
+        if (list.count > IR_VARIABLES_MOST)
+            diag_add(sink(e), DIAG_VARIABLE, place_of(e, v, "name"),
+                     "an entry can have %d variables; this one has %u", IR_VARIABLES_MOST, list.count);
+        else
+            diag_add(sink(e), DIAG_VARIABLE, place_of(e, v, "name"),
+                     "there are more than %d names of objects and 'for' here", REACH_MOST);
         return false;
     }
     entry->variable_count = list.count;
@@ -186,7 +193,7 @@ bool copies_size(struct evaluation *e, const struct copy_entry *entry, uint32_t 
     }
     const struct bind_frame frame = frame_of(e, entry, v);
     const uint32_t in_reach = e->variable_count;
-    e->variable_count = variable; // messages give the values of those before it
+    e->variable_count = e->base + variable; // messages give the values of those before it
     bool good = expression_at(&v->expression, &e->at, value, &fault);
     if (!good)
         evaluation_fault(e, DIAG_EXPRESSION, v->formula->text, v->formula->at, true, &fault);
@@ -195,6 +202,31 @@ bool copies_size(struct evaluation *e, const struct copy_entry *entry, uint32_t 
     e->variable_count = in_reach;
     *size = good ? (uint32_t)value[0] : 0;
     return good;
+}
+
+static void mark_named(const struct evaluation *e, str text, bool *is_used) {
+    size_t at = 0;
+    str name;
+    while (expression_next_name(text, &at, &name))
+        for (uint32_t i = e->variable_count; i-- > 0;)
+            if (str_equal(e->names[e->count + i], name)) {
+                is_used[i] = true;
+                break; // it hides those before it
+            }
+}
+
+void copies_mark_used(const struct evaluation *e, const struct schema_element *schema, const void *memory,
+                      bool *is_used) {
+    for (uint32_t i = ir_walk_head(memory)->formulas; i; i = e->scene->formulas->items[i].next)
+        mark_named(e, e->scene->formulas->items[i].text, is_used);
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
+        const struct ir_any_list list = ir_walk_list(row, memory);
+        for (uint32_t k = 0; k < list.count; k++)
+            copies_mark_used(e, row->child, ir_walk_item(row, list, k), is_used);
+        if (row->kind == SCHEMA_ELEMENT)
+            copies_mark_used(e, row->child, schema_field_const(row, memory), is_used);
+    }
 }
 
 uint32_t copies_used(const struct evaluation *e, const struct copy_entry *entry,

@@ -102,7 +102,7 @@ static void keep_moving(struct evaluation *e, const struct bind_frame *frame, co
         e->moving.items = arena_regrow(arena, e->moving.items, e->moving.count, &e->moving.capacity,
                                        sizeof *e->moving.items);
     e->moving.items[e->moving.count++] =
-        (struct moving_formula){f, *expression, keep_frame(arena, frame), e->entry, e->places};
+        (struct moving_formula){f, *expression, keep_frame(arena, frame), e->entry, e->places, e->instance};
 }
 
 // Reads the formula, and puts its value in its place.
@@ -122,10 +122,10 @@ bool evaluate_moving(struct evaluation *e) {
     e->operations = 0;
     for (uint32_t i = 0; i < e->moving.count && good; i++) {
         const struct moving_formula *m = &e->moving.items[i];
-        copies_enter_again(e, m->entry, m->places);
-        good = run(e, m->frame, m->formula, &m->expression);
+        good = copies_enter_again(e, m->entry, m->places, m->instance) &&
+               run(e, m->frame, m->formula, &m->expression);
     }
-    copies_leave(e);
+    copies_leave_all(e);
     return good;
 }
 
@@ -151,6 +151,8 @@ static str name_of(const struct schema_element *schema, const void *element) {
 static void walk_list(struct evaluation *e, struct bind_frame *frame, const struct schema_row *row) {
     const struct ir_any_list list = ir_walk_list(row, frame->memory);
     const bool parts = has_parts(row->child);
+    if (row->child == &SCHEMA_OBJECT) // has values only where an instance shows it
+        return;
     for (uint32_t i = 0; i < list.count; i++) {
         void *item = ir_walk_item(row, list, i);
         if (!parts && ((const struct ir_head *)item)->formulas == 0)
@@ -166,7 +168,7 @@ static void walk_list(struct evaluation *e, struct bind_frame *frame, const stru
         walk_element(e, &child);
     }
     if (!frame->parent)
-        copies_leave(e);
+        copies_leave_all(e);
 }
 
 static void put_default(struct evaluation *e, const struct bind_frame *frame, const struct schema_row *row) {

@@ -45,7 +45,7 @@ struct moving_formula {
     struct expression expression;
     const struct bind_frame *frame; // the element
     const struct copy_entry *entry; // of which it is a copy; NULL: of none
-    uint32_t places;
+    uint32_t places, instance;
 };
 
 // A formula of an entry with copies is read once.
@@ -54,14 +54,20 @@ struct copy_formula {
     bool is_read, is_good;
 };
 
-// A variable of the entry whose formulas are being read or computed.
+// A name in reach beyond the scene's parameters: a parameter of an object, or a variable of an entry.
 struct copy_variable {
     enum expression_type type;
     bool moves;
+    bool is_bad; // reported: it has no value
+    bool *is_used;
+};
+enum {
+    REACH_MOST = 512 // such names at one place
 };
 
 struct copy_entry;
 struct copying;
+struct objects;
 
 struct evaluation {
     struct loader *loader;
@@ -69,10 +75,14 @@ struct evaluation {
     struct parameter *items; // of scene->parameters, in their order
     str *names;              // of parameters, and then of variables
     uint32_t count;
-    struct copy_variable variables[IR_VARIABLES_MOST];
+    struct copy_variable *variables; // those of objects, then those of the entry
     uint32_t variable_count;
+    uint32_t base;    // so many of them are not the entry's own
+    uint32_t base_of; // 1 + the instance whose object's parameters they are; 0: of none, or not known
     const struct copy_entry *entry; // whose variables these are; NULL: there are none
     uint32_t places;                // of the copy
+    uint32_t instance;              // 1 + that in whose object it is; 0: in none
+    struct objects *objects;        // NULL: the scene has none
     struct copying *copying;        // NULL: nothing is copied
     struct copy_formula *formulas;  // by their index
     uint32_t formula_count;
@@ -110,6 +120,13 @@ void evaluation_keep(const struct evaluation *evaluation);
 // Warns of parameters, and of variables of copies, that nothing uses.
 void evaluation_tell_unused(struct evaluation *evaluation);
 
+// parameter_bounds.c
+// Whether the bounds of a parameter, whose type is known, fit it and each other; else it is reported.
+bool parameter_bounds_fit(const struct evaluation *evaluation, const struct parameter *parameter);
+// Whether a number is within the bounds of a parameter; else it is reported at `at`.
+bool parameter_is_in_bounds(struct evaluation *evaluation, const struct parameter *parameter, double value,
+                            span at);
+
 // scope.c
 // Reads a text as an expression. false: reported with the code.
 bool evaluation_compile(struct evaluation *evaluation, diag_code code, str text, span at,
@@ -125,6 +142,8 @@ const char *evaluation_suffix(const struct evaluation *evaluation);
 void evaluation_mark_named(struct evaluation *evaluation, str text);
 // What is said of a name that is not in reach, and is a variable of some entry; NULL: it is of none.
 const char *evaluation_help(struct evaluation *evaluation, str name);
+// Whether a name is in reach and has no value, which was reported.
+bool evaluation_is_known(const struct evaluation *evaluation, str name);
 // Whether a name is that of a variable, in reach, with a list of three numbers.
 bool evaluation_is_three(const struct evaluation *evaluation, str name);
 // Whether entries of a list can have copies.
@@ -157,10 +176,17 @@ void evaluate_types(struct evaluation *evaluation, const struct schema_row *row,
 
 // copies_reach.c
 // The variables of an item of a list of the scene come into reach, with their values. false: the item is not
-// one that has values.
+// one that has values, or a parameter around it has none (reported).
 bool copies_enter(struct evaluation *evaluation, const struct schema_row *row, uint32_t index);
-void copies_enter_again(struct evaluation *evaluation, const struct copy_entry *entry, uint32_t places);
+bool copies_enter_again(struct evaluation *evaluation, const struct copy_entry *entry, uint32_t places,
+                        uint32_t instance);
+// The variables of the entry leave it.
 void copies_leave(struct evaluation *evaluation);
+// All names but the scene's parameters leave it.
+void copies_leave_all(struct evaluation *evaluation);
+// Whether an item of a list of the scene was made of an entry of an object.
+bool copies_is_of(const struct evaluation *evaluation, const struct schema_row *row, uint32_t index,
+                  const void *entry);
 // The first item of the scene's list that an entry made, as it is numbered there, and how many; an entry that
 // is as written makes one.
 uint32_t copies_of(const struct evaluation *evaluation, const struct schema_row *row, uint32_t entry,
@@ -169,7 +195,9 @@ uint32_t copies_of(const struct evaluation *evaluation, const struct schema_row 
 // copies.c
 // Whether any entry of the scene has `for` or `if`.
 bool copies_are_written(const struct ir_scene *scene);
-// Gives the scene's lists what `for` and `if` make of their entries, still with their formulas.
+
+// copies_make.c
+// Gives the scene's lists what `for`, `if` and instances make, still with their formulas.
 void copies_make(struct evaluation *evaluation);
 
 // copies_finish.c

@@ -131,8 +131,8 @@ static bool read(struct evaluation *e, const struct bind_frame *frame, const str
                  struct expression *expression) {
     struct expression_fault fault;
     if (!expression_compile(f->text, &e->scope, &e->loader->scratch, expression, &fault)) {
-        const uint32_t known = str_map_find(&e->by_name, str_slice(f->text, fault.begin, fault.end));
-        const bool is_known = fault.problem == EXPRESSION_UNKNOWN_NUMBER && known;
+        const bool is_known = fault.problem == EXPRESSION_UNKNOWN_NUMBER &&
+                              evaluation_is_known(e, str_slice(f->text, fault.begin, fault.end));
         if (e->is_quiet || is_known)
             return false;
         if (is_plain_mistake(e, f, &fault))

@@ -12,6 +12,7 @@
 #include "parser/tree/reader_text.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 struct named {
     str name;
@@ -53,8 +54,8 @@ static struct ir_any_list variables_of(const struct schema_element *schema, cons
     return row < 0 ? (struct ir_any_list){0} : ir_walk_list(&schema->rows[row], memory);
 }
 
-static uint32_t count_names(const struct schema_row *row, void *scene) {
-    void *field = schema_field(row, scene);
+static uint32_t count_names(const struct schema_row *row, void *holder) {
+    void *field = schema_field(row, holder);
     int name_row = visit_name_row(row->child);
     uint32_t count = 0;
     for (uint32_t i = 0; name_row >= 0 && i < bind_list_count(field); i++) {
@@ -65,8 +66,8 @@ static uint32_t count_names(const struct schema_row *row, void *scene) {
 }
 
 static void add_names(const struct loader *loader, struct named_list *list, const struct schema_row *row,
-                      void *scene) {
-    void *field = schema_field(row, scene);
+                      void *holder) {
+    void *field = schema_field(row, holder);
     int name_row = visit_name_row(row->child);
     for (uint32_t i = 0; name_row >= 0 && i < bind_list_count(field); i++) {
         const void *item = bind_list_item(field, i, row->child->size);
@@ -80,19 +81,20 @@ static void add_names(const struct loader *loader, struct named_list *list, cons
     }
 }
 
-// The names of one row, or of all rows that are lists without keys: bodies and lights share their names.
-static struct named_list collect(struct loader *loader, struct ir_scene *scene,
+// The names of one row of the scene or of an object, or of all rows that are lists without keys: bodies,
+// lights and instances share their names.
+static struct named_list collect(struct loader *loader, const struct schema_element *schema, void *holder,
                                  const struct schema_row *only) {
     uint32_t most = 0;
-    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++)
-        if (SCHEMA_SCENE.rows[i].kind == SCHEMA_LIST)
-            most += count_names(&SCHEMA_SCENE.rows[i], scene);
+    for (uint32_t i = 0; i < schema->row_count; i++)
+        if (schema->rows[i].kind == SCHEMA_LIST)
+            most += count_names(&schema->rows[i], holder);
     struct named_list list = {.items = ARENA_ARRAY(&loader->scratch, struct named, most)};
     str_map_init(&list.by_name, &loader->scratch);
-    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
-        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
         if (only ? row == only : row->kind == SCHEMA_LIST && row->many == SCHEMA_SEQUENCE)
-            add_names(loader, &list, row, scene);
+            add_names(loader, &list, row, holder);
     }
     if (list.count)
         qsort(list.items, list.count, sizeof *list.items, compare);
@@ -114,8 +116,8 @@ static void report_duplicates(struct loader *loader, const struct named_list *li
         }
         str name = say_text(&loader->scratch, named->name);
         if (first->schema == named->schema)
-            diag_add(sink, DIAG_DUPLICATE_NAME, place_of(loader, named), "two %ss have the name '%.*s'",
-                     named->schema->name, STR_ARG(name));
+            diag_add(sink, DIAG_DUPLICATE_NAME, place_of(loader, named), "two %s have the name '%.*s'",
+                     schema_yaml_key(home_of(named->schema)), STR_ARG(name));
         else
             diag_add(sink, DIAG_DUPLICATE_NAME, place_of(loader, named), "%.*s and %.*s have the name '%.*s'",
                      STR_ARG(say_article(&loader->scratch, first->schema->name)),
@@ -243,8 +245,11 @@ static void report_unknown(struct resolving *resolving, const struct named_list 
         note_may_be_unread(resolving, row->child->name, at, name);
         return;
     }
-    diag_add(sink, row->child == &SCHEMA_MATERIAL ? DIAG_UNKNOWN_MATERIAL : DIAG_UNKNOWN_MESH, at,
-             "there is no %s '%.*s'", row->child->name, STR_ARG(say_text(&loader->scratch, name)));
+    diag_add(sink,
+             row->child == &SCHEMA_MATERIAL ? DIAG_UNKNOWN_MATERIAL
+             : row->child == &SCHEMA_OBJECT ? DIAG_UNKNOWN_OBJECT
+                                            : DIAG_UNKNOWN_MESH,
+             at, "there is no %s '%.*s'", row->child->name, STR_ARG(say_text(&loader->scratch, name)));
     if (row->file != SCHEMA_FILE_NONE)
         diag_note(sink, SPAN_NONE, "the name of a file has an ending: %.*s",
                   STR_ARG(schema_file_words(row->file, &loader->scratch)));
@@ -324,11 +329,22 @@ static void find_focus(struct resolving *resolving, struct named_list *things) {
     for (uint32_t i = 0; i < scene->cameras.count && !incomplete; i++) {
         const struct ir_camera *camera = &scene->cameras.items[i];
         const str name = camera->focus_on;
+        if (name.len && memchr(name.ptr, '/', name.len)) // in an object: copies_finish.c looks for it
+            continue;
         if (name.len && !(camera->head.poisoned & bind_bit((uint32_t)row)) && !is_body(find(things, name)) &&
             !is_body(find(things, ir_copies_base(name)))) // copies.c looks for a copy
             report_focus(resolving, things, ir_place_value(origin, &camera->head, &SCHEMA_CAMERA, "focus_on"),
                          name);
     }
+}
+
+static struct named_list check_things(struct loader *loader, const struct schema_element *schema,
+                                      void *holder) {
+    struct named_list things = collect(loader, schema, holder, NULL);
+    report_duplicates(loader, &things);
+    number_names(&things);
+    report_copies_names(loader, &things);
+    return things;
 }
 
 void names_resolve(struct loader *loader, struct ir_scene *scene) {
@@ -342,14 +358,13 @@ void names_resolve(struct loader *loader, struct ir_scene *scene) {
         const struct schema_row *row = &SCHEMA_SCENE.rows[i];
         if (row->kind != SCHEMA_LIST || row->many != SCHEMA_NAMED_MAP)
             continue;
-        resolving.by_row[i] = collect(loader, scene, row);
+        resolving.by_row[i] = collect(loader, &SCHEMA_SCENE, scene, row);
         report_duplicates(loader, &resolving.by_row[i]);
         number_names(&resolving.by_row[i]);
     }
-    struct named_list things = collect(loader, scene, NULL);
-    report_duplicates(loader, &things);
-    number_names(&things);
-    report_copies_names(loader, &things);
+    struct named_list things = check_things(loader, &SCHEMA_SCENE, scene);
+    for (uint32_t i = 0; i < scene->objects.count; i++)
+        check_things(loader, &SCHEMA_OBJECT, &scene->objects.items[i]);
     find_focus(&resolving, &things);
     visit_references(&SCHEMA_SCENE, scene, resolve, &resolving);
     arena_finish(&loader->scratch);

@@ -82,7 +82,7 @@ static bool unknown_index(struct override *o, const struct schema_row *row, cons
     diag_add(sink(o), override_code(o, DIAG_SET_PATH), step->at, "there is no '%s[%u]'", schema_yaml_key(row),
              step->index);
     if (count == 0)
-        diag_help(sink(o), "the scene has no %s", schema_yaml_key(row));
+        diag_help(sink(o), "there are no %s there", schema_yaml_key(row));
     else
         diag_help(sink(o), "counted from 0, the last one is %s[%u]", schema_yaml_key(row), count - 1);
     return false;

@@ -27,10 +27,13 @@ static span place_of(const struct evaluation *e, const struct parameter *p, cons
 
 static bool find(const void *context, str name, struct expression_name *found) {
     struct evaluation *e = (struct evaluation *)context;
-    for (uint32_t i = 0; i < e->variable_count; i++)
+    for (uint32_t i = e->variable_count; i-- > 0;)
         if (str_equal(e->names[e->count + i], name)) {
-            *found = (struct expression_name){e->variables[i].type, e->count + i, e->variables[i].moves};
-            return true;
+            const struct copy_variable *v = &e->variables[i];
+            if (v->is_used)
+                *v->is_used = true;
+            *found = (struct expression_name){v->type, e->count + i, v->moves};
+            return !v->is_bad;
         }
     const uint32_t number = str_map_find(&e->by_name, name);
     if (!number || e->items[number - 1].state != PARAMETER_DONE)
@@ -39,27 +42,6 @@ static bool find(const void *context, str name, struct expression_name *found) {
     p->is_used = true;
     *found = (struct expression_name){p->value.type, number - 1, p->moves};
     return true;
-}
-
-static bool is_row_written(const struct parameter *p, const char *row) {
-    return (p->ir->head.written & bind_bit((uint32_t)schema_find_row(&SCHEMA_PARAMETER, str_from(row)))) != 0;
-}
-
-static bool bounds_fit(const struct evaluation *e, const struct parameter *p) {
-    const bool least = is_row_written(p, "min"), most = is_row_written(p, "max");
-    if (!least && !most)
-        return true;
-    if (p->value.type != EXPRESSION_NUMBER) {
-        diag_add(sink(e), DIAG_PARAMETER_VALUE, place_of(e, p, least ? "min" : "max"),
-                 "parameter '%.*s' is %s, which has no bounds", STR_ARG(p->ir->name),
-                 expression_type_name(p->value.type));
-        return false;
-    }
-    if (!least || !most || p->ir->min <= p->ir->max)
-        return true;
-    diag_add(sink(e), DIAG_PARAMETER_VALUE, place_of(e, p, "max"),
-             "'max' of parameter '%.*s' is less than its 'min'", STR_ARG(p->ir->name));
-    return false;
 }
 
 static bool read_value(struct evaluation *e, struct parameter *p) {
@@ -74,7 +56,7 @@ static void compile(struct evaluation *e, uint32_t index) {
     struct parameter *p = &e->items[index];
     const bool good = !p->ir->head.poisoned &&
                       evaluation_name_fits(e, p->ir->name, place_of(e, p, "name"), "parameter") &&
-                      read_value(e, p) && bounds_fit(e, p);
+                      read_value(e, p) && parameter_bounds_fit(e, p);
     p->state = good ? PARAMETER_DONE : PARAMETER_BAD;
     if (good)
         e->order[e->ordered++] = index;
@@ -161,11 +143,12 @@ struct evaluation *evaluation_begin(struct loader *loader, struct ir_scene *scen
         .loader = loader,
         .scene = scene,
         .items = ARENA_ARRAY(scratch, struct parameter, parameters->count),
-        .names = ARENA_ARRAY(scratch, str, (size_t)parameters->count + IR_VARIABLES_MOST),
+        .names = ARENA_ARRAY(scratch, str, (size_t)parameters->count + REACH_MOST),
         .count = parameters->count,
         .order = ARENA_ARRAY(scratch, uint32_t, parameters->count),
         .values = ARENA_ARRAY(scratch, double,
-                              heap_times(EXPRESSION_WIDTH, (size_t)parameters->count + IR_VARIABLES_MOST)),
+                              heap_times(EXPRESSION_WIDTH, (size_t)parameters->count + REACH_MOST)),
+        .variables = ARENA_ARRAY(scratch, struct copy_variable, REACH_MOST),
         .suffix = ""};
     e->scope = (struct expression_scope){find, e};
     e->at = (struct expression_at){.decodes = scene->image.transfer == IR_TRANSFER_SRGB, .values = e->values};
@@ -186,32 +169,17 @@ struct evaluation *evaluation_begin(struct loader *loader, struct ir_scene *scen
 
 // ---- values
 
-static bool is_in_bounds(struct evaluation *e, const struct parameter *p, double value) {
-    char digits[NUMBER_FORMAT_MAX], bound[NUMBER_FORMAT_MAX];
-    const bool low = is_row_written(p, "min") && value < p->ir->min;
-    const bool high = is_row_written(p, "max") && value > p->ir->max;
-    if (!low && !high)
-        return true;
-    if (e->is_quiet)
-        return false;
-    number_format(value, digits);
-    number_format(low ? p->ir->min : p->ir->max, bound);
-    diag_add(sink(e), DIAG_PARAMETER_VALUE, place_of(e, p, "value"),
-             "parameter '%.*s' is %s%s; it must be at %s %s", STR_ARG(p->ir->name), digits,
-             evaluation_suffix(e), low ? "least" : "most", bound);
-    diag_note(sink(e), place_of(e, p, low ? "min" : "max"), "the bound is here");
-    return false;
-}
-
 static bool evaluate(struct evaluation *e, struct parameter *p, double *value) {
     return computed_value(e, &p->value, place_of(e, p, "value"), value) &&
-           (p->value.type != EXPRESSION_NUMBER || is_in_bounds(e, p, value[0]));
+           (p->value.type != EXPRESSION_NUMBER ||
+            parameter_is_in_bounds(e, p, value[0], place_of(e, p, "value")));
 }
 
 bool evaluation_set_frame(struct evaluation *e, double frame, double time) {
     bool good = true;
     e->at.frame = frame;
     e->at.time = time;
+    copies_leave_all(e); // objects' parameters may have other values
     if (e->move)
         e->move(e->motion, e);
     for (uint32_t i = 0; i < e->ordered; i++) {
@@ -219,7 +187,9 @@ bool evaluation_set_frame(struct evaluation *e, double frame, double time) {
         struct parameter *p = &e->items[index];
         double *value = e->values + (size_t)EXPRESSION_WIDTH * index;
         if (p->is_moved)
-            good = (p->value.type != EXPRESSION_NUMBER || is_in_bounds(e, p, *value)) && good;
+            good = (p->value.type != EXPRESSION_NUMBER ||
+                    parameter_is_in_bounds(e, p, *value, place_of(e, p, "value"))) &&
+                   good;
         else if (!evaluate(e, p, value))
             good = false, p->state = e->is_quiet ? p->state : PARAMETER_BAD;
     }

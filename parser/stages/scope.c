@@ -19,15 +19,11 @@ struct ir_scene *copies_written(const struct evaluation *e) {
 
 // ---- names that are not in reach
 
-const char *evaluation_help(struct evaluation *e, str name) {
-    for (uint32_t i = e->variable_count; e->entry && i < e->entry->variable_count; i++)
-        if (str_equal(e->entry->variables[i].ir->name, name))
-            return "a variable of 'for' can use those before it, not those after it: exchange them";
-    if (!e->has_variables_named)
-        str_map_init(&e->variables_named, &e->loader->scratch);
-    for (uint32_t i = 0; !e->has_variables_named && i < SCHEMA_SCENE.row_count; i++) {
-        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
-        const struct ir_any_list list = ir_walk_list(row, copies_written(e));
+// All that are named in entries of an element's lists.
+static void list_variables(struct evaluation *e, const struct schema_element *schema, const void *element) {
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
+        const struct ir_any_list list = ir_walk_list(row, element);
         for (uint32_t k = 0; copies_may(row) && k < list.count; k++) {
             const struct schema_row *variables = &row->child->rows[schema_find_row(row->child, STR("for"))];
             const struct ir_any_list of_entry = ir_walk_list(variables, ir_walk_item(row, list, k));
@@ -35,6 +31,19 @@ const char *evaluation_help(struct evaluation *e, str name) {
                 *str_map_at(&e->variables_named, ((const struct ir_variable *)of_entry.items)[v].name) = 1;
         }
     }
+}
+
+const char *evaluation_help(struct evaluation *e, str name) {
+    for (uint32_t i = e->variable_count - e->base; e->entry && i < e->entry->variable_count; i++)
+        if (str_equal(e->entry->variables[i].ir->name, name))
+            return "a variable of 'for' can use those before it, not those after it: exchange them";
+    if (!e->has_variables_named)
+        str_map_init(&e->variables_named, &e->loader->scratch);
+    const struct ir_scene *written = copies_written(e);
+    if (!e->has_variables_named)
+        list_variables(e, &SCHEMA_SCENE, written);
+    for (uint32_t i = 0; !e->has_variables_named && i < written->objects.count; i++)
+        list_variables(e, &SCHEMA_OBJECT, &written->objects.items[i]);
     e->has_variables_named = true;
     return str_map_find(&e->variables_named, name)
                ? "a variable of 'for' is known in its entry, and in what is written in place there"
@@ -42,10 +51,18 @@ const char *evaluation_help(struct evaluation *e, str name) {
 }
 
 bool evaluation_is_three(const struct evaluation *e, str name) {
-    for (uint32_t i = 0; e->entry && i < e->variable_count; i++)
+    for (uint32_t i = e->base; e->entry && i < e->variable_count; i++)
         if (str_equal(e->names[e->count + i], name))
-            return e->entry->variables[i].is_list && e->entry->variables[i].value_count == 3;
+            return e->entry->variables[i - e->base].is_list &&
+                   e->entry->variables[i - e->base].value_count == 3;
     return false;
+}
+
+bool evaluation_is_known(const struct evaluation *e, str name) {
+    for (uint32_t i = e->variable_count; i-- > 0;)
+        if (str_equal(e->names[e->count + i], name))
+            return true;
+    return str_map_find(&e->by_name, name) != 0;
 }
 
 // ---- messages
@@ -91,8 +108,8 @@ bool evaluation_compile(struct evaluation *e, diag_code code, str text, span at,
     if (expression_compile(text, &e->scope, &e->loader->scratch, expression, &fault))
         return true;
     // A parameter that was reported is known.
-    const uint32_t number = str_map_find(&e->by_name, str_slice(text, fault.begin, fault.end));
-    if (fault.problem != EXPRESSION_UNKNOWN_NUMBER || !number)
+    if (fault.problem != EXPRESSION_UNKNOWN_NUMBER ||
+        !evaluation_is_known(e, str_slice(text, fault.begin, fault.end)))
         evaluation_fault(e, code, text, at, false, &fault);
     return false;
 }

@@ -380,14 +380,42 @@ static void check_cone(const struct rules *rules, const struct ir_cone *cone) {
     diag_help(rules->sink, "one of them may be 0: there it ends in a tip");
 }
 
-static void check_model(const struct rules *rules, const struct ir_model *model) {
-    const struct schema_element *schema = &SCHEMA_MODEL;
-    bool zero = model->scale.x == 0 || model->scale.y == 0 || model->scale.z == 0;
-    if (!zero || is_poisoned(schema, model, "scale"))
+static void check_scale(const struct rules *rules, const struct schema_element *schema, const void *memory,
+                        str name, vec3 scale) {
+    bool zero = scale.x == 0 || scale.y == 0 || scale.z == 0;
+    if (!zero || is_poisoned(schema, memory, "scale"))
         return;
-    diag_add(rules->sink, DIAG_ZERO_SCALE, value_place(rules, schema, model, "scale"),
-             "'scale' of %.*s is 0, which leaves nothing of it", STR_ARG(owner(rules, schema, model->name)));
+    diag_add(rules->sink, DIAG_ZERO_SCALE, value_place(rules, schema, memory, "scale"),
+             "'scale' of %.*s is 0, which leaves nothing of it", STR_ARG(owner(rules, schema, name)));
     diag_help(rules->sink, "1 keeps the size; a negative value mirrors");
+}
+
+static void check_model(const struct rules *rules, const struct ir_model *model) {
+    check_scale(rules, &SCHEMA_MODEL, model, model->name, model->scale);
+}
+
+static void check_instance(const struct rules *rules, const struct ir_instance *instance) {
+    const struct schema_element *schema = &SCHEMA_INSTANCE;
+    const uint32_t rows = instance->matrix.rows.count;
+    check_scale(rules, schema, instance, instance->name, instance->scale);
+    if (!is_written(schema, instance, "matrix") || is_poisoned(schema, instance, "matrix"))
+        return;
+    const span at = value_place(rules, schema, instance, "matrix");
+    if (rows != 3 && !instance->matrix.head.poisoned) {
+        diag_add(rules->sink, DIAG_MATRIX, at, "the matrix has %u row%s; it needs 3, for x, y and z", rows,
+                 rows == 1 ? "" : "s");
+        if (rows == 4)
+            diag_help(rules->sink, "the fourth, which is 0, 0, 0, 1, is left out");
+    }
+    static const char *const others[] = {"scale", "rotation", "translation"};
+    for (int i = 0; i < 3; i++) {
+        if (!is_written(schema, instance, others[i]))
+            continue;
+        diag_add(rules->sink, DIAG_MATRIX, value_place(rules, schema, instance, others[i]),
+                 "an instance with a matrix has no '%s': the matrix says where the object is", others[i]);
+        diag_note(rules->sink, at, "the matrix is here");
+        diag_help(rules->sink, "remove one of the two, or put one instance into another");
+    }
 }
 
 // The picture.
@@ -431,6 +459,8 @@ void validate_element(struct loader *loader, const struct schema_element *schema
         check_cone(&rules, memory);
     else if (schema == &SCHEMA_MODEL)
         check_model(&rules, memory);
+    else if (schema == &SCHEMA_INSTANCE)
+        check_instance(&rules, memory);
 }
 
 void validate_scene(struct loader *loader, const struct ir_scene *scene) {

@@ -28,12 +28,10 @@ static struct aov_name object_of(const struct session *session, uint32_t body, s
     where_find(session, body, 0, &where);
     struct strbuf label;
     strbuf_init(&label);
-    const bool shares = session->resolved.body_count > NAMED_COPIES_MOST &&
-                        ir_copies_at(where.copies, where.row, where.index);
-    if (where.name.len)
-        strbuf_str(&label, shares ? ir_copies_base(where.name) : where.name);
-    else if (shares)
-        strbuf_format(&label, "%s[%u]", where.list, ir_copies_entry(where.copies, where.row, where.index));
+    if (session->resolved.body_count > NAMED_COPIES_MOST && where.copies)
+        ir_copies_entry_label(where.copies, where.row, where.index, where.name, &label);
+    else if (where.name.len)
+        strbuf_str(&label, where.name);
     else
         ir_copies_label(where.copies, where.row, where.index, &label);
     const char *name = text(arena, strbuf_view(&label));

@@ -84,9 +84,11 @@ static bool is_motion(const struct schema_element *schema) {
     return schema == &SCHEMA_ANIMATION || schema == &SCHEMA_TRACK || schema == &SCHEMA_KEYFRAME;
 }
 
-// What makes copies: they are made before a scene is drawn (tests/equal, tests/cli/run_copies.sh).
+// What makes copies: they are made before a scene is drawn (tests/equal, tests/cli/run_copies.sh and
+// run_objects.sh).
 static bool is_copying(const struct schema_element *schema) {
-    return schema == &SCHEMA_VARIABLE;
+    return schema == &SCHEMA_VARIABLE || schema == &SCHEMA_OBJECT || schema == &SCHEMA_INSTANCE ||
+           schema == &SCHEMA_MATRIX || schema == &SCHEMA_MATRIX_ROW;
 }
 
 // What a mesh of the scene is made of: random points are not shapes (tests/unit/assets makes those).
@@ -195,6 +197,9 @@ static bool change(const struct bench *b, const struct use *use, void *field) {
         return true;
     case SCHEMA_POINT:
         ((struct ir_point *)field)->y = other_number(row, ((struct ir_point *)field)->y);
+        return true;
+    case SCHEMA_QUAD:
+        ((struct ir_quad *)field)->t = other_number(row, ((struct ir_quad *)field)->t);
         return true;
     case SCHEMA_VECTOR:
         *(vec3 *)field = other_vector(row, *(vec3 *)field);

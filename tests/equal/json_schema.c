@@ -98,8 +98,11 @@ static void translate(const char *pattern, struct strbuf *out) {
 static bool check_pattern(const char *pattern, const char *text) {
     regex_t regex;
     const str name = str_from(text);
-    if (strstr(pattern, "\\u")) // names of any script, or of copies: the patterns beyond POSIX
-        return str_is_name(strstr(pattern, "(\\[") ? ir_copies_base(name) : name);
+    if (strstr(pattern,
+               "\\u")) { // names of any script, of copies, of bodies in objects: the patterns beyond POSIX
+        const char *last = strstr(pattern, "(/") ? strrchr(text, '/') : NULL;
+        return str_is_name(strstr(pattern, "(\\[") ? ir_copies_base(last ? str_from(last + 1) : name) : name);
+    }
     struct strbuf posix;
     strbuf_init(&posix);
     translate(pattern, &posix);

@@ -66,6 +66,9 @@ static void set_number(const struct schema_row *row, void *element, double value
     case SCHEMA_POINT:
         ((struct ir_point *)field)->x = value;
         break;
+    case SCHEMA_QUAD:
+        ((struct ir_quad *)field)->x = value;
+        break;
     case SCHEMA_COLOR:
         ((struct ir_color *)field)->r = value;
         break;

@@ -3,6 +3,8 @@
 // whether its entries are bound while it is read must not show.
 #include "core/strbuf.h"
 #include "fuzz_sample.h"
+#include "grammar/ir.h"
+#include "grammar/ir_expand.h"
 #include "grammar/print/ir_print.h"
 #include "parser/parser.h"
 
@@ -77,6 +79,7 @@ static void check_same(const char *name, struct strbuf *written, const struct st
     strbuf_init(&dump);
     load(&again, name, strbuf_view(written), NULL, false);
     require(again.found && again.sink.errors == 0, "what is written can be read");
+    ir_expand_instances(again.output.scene, &again.arena);
     ir_dump(again.output.scene, &dump);
     require(str_equal(strbuf_view(&dump), strbuf_view(wanted)), "what is written means the same");
     strbuf_finish(&dump);
@@ -87,8 +90,12 @@ static void check_writers(struct loaded *l, str bytes) {
     struct strbuf dump;
     struct strbuf text;
     struct ir_write_options options = {0};
+    // Tracks lead into objects, which a scene that was evaluated has in place.
+    if (l->output.scene->instances.count && l->output.scene->animation.tracks.count)
+        return;
     strbuf_init(&dump);
     strbuf_init(&text);
+    ir_expand_instances(l->output.scene, &l->arena);
     ir_dump(l->output.scene, &dump);
     if (fuzz_is_chosen(bytes, 0, 4))
         check_same("dump.yaml", &dump, &dump);

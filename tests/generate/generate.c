@@ -37,8 +37,8 @@ static uint32_t count_named(const struct generator *g, const struct schema_row *
 
 // Whether the row can have a value at all: a file, a name to refer to.
 static bool is_possible(const struct generator *g, const struct schema_row *row) {
-    if (row->aside || generate_is_of_copies(row))
-        return false; // generate_formulas, generate_copies
+    if (row->aside || generate_is_of_copies(row) || generate_is_of_objects(row))
+        return false; // generate_formulas, generate_copies, generate_objects
     if (row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_PATH)
         return paths_of(g, row)->count > 0;
     // Of meshes that can be rendered the materials are known; none has parts.
@@ -219,6 +219,11 @@ static bool make_value(struct generator *g, const struct schema_row *row, void *
         *(struct ir_point *)field = (struct ir_point){both.x, both.y};
         return true;
     }
+    case SCHEMA_QUAD: {
+        const vec3 some = make_vector(g, row);
+        *(struct ir_quad *)field = (struct ir_quad){some.x, some.y, some.z, some.x};
+        return true;
+    }
     case SCHEMA_COLOR:
         *(struct ir_color *)field = generate_color(g, row->range);
         return true;
@@ -291,6 +296,7 @@ struct ir_scene *generate_scene(const struct generate_options *options, struct a
     make_element(&g, &SCHEMA_SCENE, g.scene);
     generate_mend(&g, g.scene);
     g.scene->formulas = ir_formulas_new(arena);
+    generate_objects(&g, g.scene);
     generate_copies(&g, g.scene);
     generate_formulas(&g, g.scene);
     return g.scene;

@@ -19,6 +19,7 @@ struct entry {
     uint32_t count;
     uint32_t copies;
     uint32_t component; // in which copies are next to each other
+    uint32_t object;    // 1 + the object that it is in, whose variables have names of their own; 0: none
 };
 
 bool generate_is_of_copies(const struct schema_row *row) {
@@ -56,7 +57,8 @@ static void add_variable(struct generator *g, struct entry *entry, const struct 
     static const char *const values[] = {
         "0", "-1, 0.5", "1/4, 2*1, cos(60)", "[0, 1, 0], [0.5, -1, 1/2]", "[1, 2, 3]", "#ff8800, #0088ff"};
     static const uint32_t sizes[] = {1, 2, 3, 2, 1, 2}; // of these lists
-    const str name = str_from(names[2 * entry->count + generate_below(g, 2)]);
+    const char *base = names[2 * entry->count + generate_below(g, 2)];
+    const str name = entry->object ? arena_format(g->arena, "%s_%u", base, entry->object) : str_from(base);
     struct ir_variable variable = {.name = name};
     mark(&variable, &SCHEMA_VARIABLE, "name");
     if (generate_chance(g, 40)) {
@@ -148,9 +150,10 @@ static void vary(struct generator *g, const struct entry *entry, const struct sc
     }
 }
 
-static void copy_entry(struct generator *g, const struct schema_element *schema, void *element) {
+static void copy_entry(struct generator *g, const struct schema_element *schema, void *element,
+                       uint32_t object) {
     const struct schema_row *list = &schema->rows[schema_find_row(schema, STR("for"))];
-    struct entry entry = {.copies = 1, .component = generate_below(g, 3)};
+    struct entry entry = {.copies = 1, .component = generate_below(g, 3), .object = object};
     const uint32_t count = generate_chance(g, 85) ? 1 + generate_below(g, VARIABLES_MOST) : 0;
     while (entry.count < count)
         add_variable(g, &entry, list, element);
@@ -172,16 +175,23 @@ static bool is_focused_on(const struct ir_scene *scene, const struct schema_elem
     return false;
 }
 
-void generate_copies(struct generator *g, struct ir_scene *scene) {
-    if (g->options->plain || !generate_chance(g, 40))
-        return;
-    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
-        const struct schema_row *row = &SCHEMA_SCENE.rows[i];
-        const struct ir_any_list list = ir_walk_list(row, scene);
+static void copy_entries(struct generator *g, const struct schema_element *schema, void *holder,
+                         uint32_t object) {
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
+        const struct ir_any_list list = ir_walk_list(row, holder);
         if (row->kind != SCHEMA_LIST || schema_find_row(row->child, STR("for")) < 0)
             continue;
         for (uint32_t k = 0; k < list.count; k++)
-            if (generate_chance(g, 35) && !is_focused_on(scene, row->child, ir_walk_item(row, list, k)))
-                copy_entry(g, row->child, ir_walk_item(row, list, k));
+            if (generate_chance(g, 35) && !is_focused_on(g->scene, row->child, ir_walk_item(row, list, k)))
+                copy_entry(g, row->child, ir_walk_item(row, list, k), object);
     }
+}
+
+void generate_copies(struct generator *g, struct ir_scene *scene) {
+    if (g->options->plain || !generate_chance(g, 40))
+        return;
+    copy_entries(g, &SCHEMA_SCENE, scene, 0);
+    for (uint32_t i = 0; i < scene->objects.count; i++)
+        copy_entries(g, &SCHEMA_OBJECT, &scene->objects.items[i], i + 1);
 }

@@ -49,6 +49,10 @@ void generate_mend(struct generator *g, struct ir_scene *scene);
 void generate_formulas(struct generator *g, struct ir_scene *scene);
 // generate_copies.c: has some bodies and lights copied; before generate_formulas.
 void generate_copies(struct generator *g, struct ir_scene *scene);
+// generate_objects.c: moves some bodies and lights into objects; before generate_copies.
+void generate_objects(struct generator *g, struct ir_scene *scene);
+// Whether a row is of objects or instances.
+bool generate_is_of_objects(const struct schema_row *row);
 // Whether a row says which copies there are.
 bool generate_is_of_copies(const struct schema_row *row);
 // generate_meshes.c: gives a mesh points and faces that make a body.

@@ -29,6 +29,7 @@ int main(void) {
     print_all(schema_components(SCHEMA_VECTOR));
     print_all(schema_components(SCHEMA_PAIR));
     print_all(schema_components(SCHEMA_POINT));
+    print_all(schema_components(SCHEMA_QUAD));
     print_all(schema_components(SCHEMA_COLOR));
     print_all(schema_components(SCHEMA_WEIGHTS));
     return 0;

@@ -113,6 +113,7 @@ static void try_value(struct table *t, const struct schema_element *schema, cons
     case SCHEMA_POINT:
         try_numbers(t, schema, what, field, 2);
         break;
+    case SCHEMA_QUAD:
     case SCHEMA_WEIGHTS:
         try_numbers(t, schema, what, field, 4);
         break;

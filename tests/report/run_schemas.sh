@@ -49,6 +49,8 @@ spheres:
   - {center: [0, 0, -5], radius: 1, material: glass}
   - {center: [0, 0.5, -5], radius: 1, material: glass}
   - {for: {i: 3}, center: [i, 0, -5], radius: 0.4, material: glass}
+objects: {pair: {boxes: [{for: {i: 2}, center: [i, 2, -5], size: 0.2}]}}
+instances: [{object: pair}]
 S
 printf 'glint: 1\nlights: [{position: [0, 1, 0]}]\n' >empty.yaml
 
@@ -149,9 +151,11 @@ spheres: [{center: [0, 0, 0], radius: 1, material: glass}, {center: [0.5, 0, 0],
 S
 json pick_media 0 "$glint" pick media.yaml 12,8 --format json
 sed 's/, {center: \[0.5, 0, 0\]/, {for: {i: 2}, center: [0.5 + i, 0, 0]/' media.yaml >copies.yaml
+sed 's/^spheres: \(.*\)/instances: [{name: both, object: {spheres: \1}}]/' media.yaml >inside.yaml
+json pick_inside 0 "$glint" pick inside.yaml 12,8 --format json
 json pick_copy 0 "$glint" pick copies.yaml 12,8 --format json
 json pick_light 0 "$glint" pick "$source/scenes/elements/seen_lights.glint.yaml" 145,70 --device reference --format json
-by_schema pick pick.json pick_mesh.json pick_bytes.json pick_off.json pick_reference.json pick_media.json pick_image.json pick_copy.json pick_light.json
+by_schema pick pick.json pick_mesh.json pick_bytes.json pick_off.json pick_reference.json pick_media.json pick_image.json pick_copy.json pick_inside.json pick_light.json
 
 json tradeoff 0 "$glint" tradeoff scene.yaml --format json --budget 5 -q --max-error mae=0.5 --max-time 10000
 json tradeoff_none 1 "$glint" tradeoff scene.yaml --format json --budget 1 -q --max-time 0.000001

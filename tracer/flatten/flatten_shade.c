@@ -1,6 +1,7 @@
 // What shading needs from a body: the coordinates of its checker, and its vertex normals.
 #include "core/heap.h"
 #include "core/parallel.h"
+#include "grammar/schema.h"
 #include "scene/shape.h"
 #include "tracer/flatten/flatten_internal.h"
 
@@ -16,7 +17,7 @@ enum {
 bool flatten_turns_spheres(const struct flattening *f) {
     const struct ir_scene *ir = f->scene->ir;
     for (uint32_t i = 0; i < ir->spheres.count; i++)
-        if (!vec3_is_zero(ir->spheres.items[i].rotation))
+        if (!vec3_is_zero(ir->spheres.items[i].rotation) || scene_place(f->scene, &SCHEMA_SPHERE, i))
             return true;
     return false;
 }
@@ -44,7 +45,8 @@ static void put_map(const struct flattening *f, const struct scene_body *body, s
 
 static void put_edge_lengths(const struct scene_body *body, struct gpu_body *record) {
     const mat3 edges = body->object_to_world.linear;
-    record->row_x = (vec3){vec3_length(mat3_column(edges, 0)), vec3_length(mat3_column(edges, 1)), 0};
+    record->row_x = (vec3){vec3_length(mat3_column(edges, 0)) * body->cells->scale.x,
+                           vec3_length(mat3_column(edges, 1)) * body->cells->scale.y, 0};
 }
 
 enum flatten_fault flatten_body_records(struct flattening *f) {

@@ -1,6 +1,7 @@
 // glint inspect SCENE|PICTURE: counts, bounds, features with their reasons, buffers; or the canonical dump.
 #include "cli/commands/commands.h"
 #include "cli/commands/inspect/inspect.h"
+#include "grammar/ir_expand.h"
 #include "grammar/print/ir_print.h"
 
 static bool describe(struct session *session, bool as_json, struct strbuf *out) {
@@ -40,10 +41,12 @@ int cmd_inspect(struct cli *cli) {
     strbuf_init(&text);
     session_load(&session, &options, store);
     bool good = session.state == SESSION_LOADED && session.sink.errors == 0;
-    if (good && cli->options.ir)
+    if (good && cli->options.ir) {
+        ir_expand_instances(session.scene, &session.arena);
         ir_dump(session.scene, &text);
-    else if (good)
+    } else if (good) {
         good = describe(&session, format == 1, &text);
+    }
     int status = cli_report(cli, &session, !cli->options.ir);
     if (status == CLI_OK)
         status = good ? cli_print(cli, strbuf_view(&text)) : CLI_SCENE;

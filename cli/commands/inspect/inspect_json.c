@@ -89,6 +89,17 @@ static void put_parameters(struct json_writer *w, const struct ir_scene *scene) 
     json_close_list(w);
 }
 
+static void put_objects(struct json_writer *w, const struct ir_copies *copies) {
+    json_open_list(w, "objects");
+    for (uint32_t i = 0; copies && i < copies->objects.count; i++) {
+        json_open_object(w, NULL);
+        json_write_text(w, "name", copies->objects.items[i].name);
+        json_write_integer(w, "instances", copies->objects.items[i].instances);
+        json_close_object(w);
+    }
+    json_close_list(w);
+}
+
 static void put_copies(struct json_writer *w, const struct ir_copies *copies) {
     json_open_list(w, "copies");
     for (uint32_t i = 0; copies && i < copies->entries.count; i++) {
@@ -235,6 +246,7 @@ void inspect_scene_json(const struct inspected_scene *scene, struct strbuf *out)
     put_image(&w, session);
     put_counts(&w, session);
     put_parameters(&w, session->scene);
+    put_objects(&w, session->origin.copies);
     put_copies(&w, session->origin.copies);
     put_bounds(&w, session);
     put_models(&w, session);

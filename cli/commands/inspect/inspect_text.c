@@ -71,9 +71,22 @@ static void parameters(struct strbuf *out, const struct ir_scene *scene) {
     }
 }
 
+static void objects(struct strbuf *out, struct session *s) {
+    const struct ir_copies *c = s->origin.copies;
+    if (c && c->objects.count)
+        strbuf_cstr(out, "objects\n");
+    for (uint32_t i = 0; c && i < c->objects.count; i++) {
+        const struct ir_shown *object = &c->objects.items[i];
+        const struct source_place place = source_locate(&s->sources, object->at);
+        strbuf_format(out, "  %-17.*s%u instance%s (%.*s:%u:%u)\n", STR_ARG(object->name), object->instances,
+                      object->instances == 1 ? "" : "s", STR_ARG(place.path), place.line, place.column);
+    }
+}
+
 static void copies(struct strbuf *out, struct session *s) {
     const struct ir_copies *c = s->origin.copies;
-    if (c)
+    objects(out, s);
+    if (c && c->entries.count)
         strbuf_cstr(out, "copies\n");
     for (uint32_t i = 0; c && i < c->entries.count; i++) {
         const struct ir_copied *entry = &c->entries.items[i];
@@ -83,7 +96,7 @@ static void copies(struct strbuf *out, struct session *s) {
             strbuf_format(&label, "%s '%.*s'", entry->list->child->name, STR_ARG(entry->name));
         else
             strbuf_format(&label, "%s[%u]", schema_yaml_key(entry->list), entry->entry);
-        strbuf_format(out, "  %-17.*s%u", STR_ARG(strbuf_view(&label)), entry->count);
+        strbuf_format(out, "  %-16.*s %u", STR_ARG(strbuf_view(&label)), entry->count);
         const struct source_place place = source_locate(&s->sources, entry->at);
         strbuf_format(out, " (%.*s:%u:%u)\n", STR_ARG(place.path), place.line, place.column);
         strbuf_finish(&label);
@@ -197,9 +210,10 @@ static void instances(struct strbuf *out, const struct flat_scene *flat) {
     strbuf_cstr(out, "meshes of several models\n");
     for (uint32_t i = 0; i < flat->use_count; i++) {
         const struct flat_use *use = &flat->uses[i];
-        strbuf_format(out, "  %.*s: ", STR_ARG(use->mesh->path));
+        const char *what = use->mesh->path.len ? "models" : "boxes"; // which have one mesh, without a name
+        strbuf_format(out, "  %.*s: ", STR_ARG(use->mesh->path.len ? use->mesh->path : STR("all boxes")));
         if (use->instances) {
-            strbuf_format(out, "%u models share %u triangles, which saves %.1f MiB", use->instances,
+            strbuf_format(out, "%u %s share %u triangles, which saves %.1f MiB", use->instances, what,
                           use->mesh->triangle_count - use->copied - use->left_out,
                           (double)use->saved_bytes / (1 << 20));
             if (use->copied)
@@ -209,7 +223,7 @@ static void instances(struct strbuf *out, const struct flat_scene *flat) {
             strbuf_cstr(out, use->instances < use->models ? "; " : "\n");
         }
         if (use->instances < use->models) {
-            strbuf_format(out, "%u models have copies: ", use->models - use->instances);
+            strbuf_format(out, "%u %s have copies: ", use->models - use->instances, what);
             inspect_copies(use, out);
             strbuf_char(out, '\n');
         }

@@ -249,10 +249,9 @@ static void test_unknown_things(void **state) {
                    "'camera.fov.x' is not a code, element or attribute; did you mean 'camera.fov'?\n");
     assert_unknown("eye",
                    "several attributes are like 'eye'; say which: 'scene.camera' or 'camera.position'\n");
-    assert_unknown(
-        "rotation",
-        "several elements have 'rotation'; say which: 'camera.rotation', "
-        "'background.rotation', 'texture.rotation', 'sphere.rotation', 'box.rotation' or 'model.rotation'\n");
+    assert_unknown("rotation", "several elements have 'rotation'; say which: 'camera.rotation', "
+                               "'background.rotation', 'texture.rotation', 'sphere.rotation', "
+                               "'box.rotation', 'model.rotation' or 'instance.rotation'\n");
 }
 
 int main(void) {

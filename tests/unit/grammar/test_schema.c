@@ -18,56 +18,42 @@
 #include <cmocka.h>
 
 // The struct behind each element, as ir.h names it.
+// clang-format off
 static const struct {
     const struct schema_element *schema;
     const char *structure;
 } structures[] = {
-    {&SCHEMA_SCENE, "ir_scene"},
-    {&SCHEMA_PARAMETER, "ir_parameter"},
-    {&SCHEMA_VARIABLE, "ir_variable"},
-    {&SCHEMA_INCLUDE, "ir_include"},
-    {&SCHEMA_IMAGE, "ir_image"},
-    {&SCHEMA_TRACE, "ir_trace"},
-    {&SCHEMA_CAMERA, "ir_camera"},
-    {&SCHEMA_BACKGROUND, "ir_background"},
-    {&SCHEMA_LIGHT, "ir_light"},
-    {&SCHEMA_PANEL, "ir_panel"},
-    {&SCHEMA_AMBIENT, "ir_ambient"},
-    {&SCHEMA_MATERIAL, "ir_material"},
-    {&SCHEMA_PAINT, "ir_paint"},
-    {&SCHEMA_CHECKER, "ir_checker"},
-    {&SCHEMA_TEXTURE, "ir_texture"},
-    {&SCHEMA_HIGHLIGHT, "ir_highlight"},
-    {&SCHEMA_MESH, "ir_mesh"},
-    {&SCHEMA_LATHE, "ir_lathe"},
-    {&SCHEMA_OUTLINE_POINT, "ir_outline_point"},
-    {&SCHEMA_TORUS, "ir_torus"},
-    {&SCHEMA_EXTRUDE, "ir_extrude"},
-    {&SCHEMA_HOLE, "ir_hole"},
-    {&SCHEMA_FACES, "ir_faces"},
-    {&SCHEMA_VERTEX, "ir_vertex"},
-    {&SCHEMA_UV, "ir_coordinate"},
-    {&SCHEMA_FACE, "ir_face"},
-    {&SCHEMA_CORNER, "ir_corner"},
-    {&SCHEMA_MESH_TEXT, "ir_text"},
-    {&SCHEMA_SPHERE, "ir_sphere"},
-    {&SCHEMA_RECTANGLE, "ir_rectangle"},
-    {&SCHEMA_BOX, "ir_box"},
-    {&SCHEMA_CYLINDER, "ir_cylinder"},
-    {&SCHEMA_CONE, "ir_cone"},
-    {&SCHEMA_MODEL, "ir_model"},
-    {&SCHEMA_MAP_ENTRY, "ir_map_entry"},
-    {&SCHEMA_TRACK, "ir_track"},
-    {&SCHEMA_ANIMATION, "ir_animation"},
-    {&SCHEMA_KEYFRAME, "ir_keyframe"},
+    {&SCHEMA_SCENE, "ir_scene"}, {&SCHEMA_PARAMETER, "ir_parameter"},
+    {&SCHEMA_VARIABLE, "ir_variable"}, {&SCHEMA_INCLUDE, "ir_include"},
+    {&SCHEMA_IMAGE, "ir_image"}, {&SCHEMA_TRACE, "ir_trace"},
+    {&SCHEMA_CAMERA, "ir_camera"}, {&SCHEMA_BACKGROUND, "ir_background"},
+    {&SCHEMA_LIGHT, "ir_light"}, {&SCHEMA_PANEL, "ir_panel"},
+    {&SCHEMA_AMBIENT, "ir_ambient"}, {&SCHEMA_MATERIAL, "ir_material"},
+    {&SCHEMA_PAINT, "ir_paint"}, {&SCHEMA_CHECKER, "ir_checker"},
+    {&SCHEMA_TEXTURE, "ir_texture"}, {&SCHEMA_HIGHLIGHT, "ir_highlight"},
+    {&SCHEMA_MESH, "ir_mesh"}, {&SCHEMA_LATHE, "ir_lathe"},
+    {&SCHEMA_OUTLINE_POINT, "ir_outline_point"}, {&SCHEMA_TORUS, "ir_torus"},
+    {&SCHEMA_EXTRUDE, "ir_extrude"}, {&SCHEMA_HOLE, "ir_hole"},
+    {&SCHEMA_FACES, "ir_faces"}, {&SCHEMA_VERTEX, "ir_vertex"},
+    {&SCHEMA_UV, "ir_coordinate"}, {&SCHEMA_FACE, "ir_face"},
+    {&SCHEMA_CORNER, "ir_corner"}, {&SCHEMA_MESH_TEXT, "ir_text"},
+    {&SCHEMA_SPHERE, "ir_sphere"}, {&SCHEMA_RECTANGLE, "ir_rectangle"},
+    {&SCHEMA_BOX, "ir_box"}, {&SCHEMA_CYLINDER, "ir_cylinder"},
+    {&SCHEMA_CONE, "ir_cone"}, {&SCHEMA_MODEL, "ir_model"},
+    {&SCHEMA_MAP_ENTRY, "ir_map_entry"}, {&SCHEMA_TRACK, "ir_track"},
+    {&SCHEMA_ANIMATION, "ir_animation"}, {&SCHEMA_KEYFRAME, "ir_keyframe"},
+    {&SCHEMA_OBJECT, "ir_object"}, {&SCHEMA_INSTANCE, "ir_instance"},
+    {&SCHEMA_WITH, "ir_with"}, {&SCHEMA_MATRIX, "ir_matrix"},
+    {&SCHEMA_MATRIX_ROW, "ir_matrix_row"},
 };
+// clang-format on
 
 #define EACH_ELEMENT(e) for (const struct schema_element *const *e = schema_elements; *e; e++)
 
 static bool has_numbers(const struct schema_row *row) {
     return row->kind == SCHEMA_INTEGER || row->kind == SCHEMA_NUMBER || row->kind == SCHEMA_VECTOR ||
            row->kind == SCHEMA_PAIR || row->kind == SCHEMA_POINT || row->kind == SCHEMA_COLOR ||
-           row->kind == SCHEMA_WEIGHTS;
+           row->kind == SCHEMA_WEIGHTS || row->kind == SCHEMA_QUAD;
 }
 
 // ---- fields
@@ -107,9 +93,10 @@ static size_t known_fields(const struct schema_element *schema, struct field out
         size_t times = row->many == SCHEMA_FIXED ? row->fixed_count : 1;
         out[count++] = (struct field){row->offset, row->size * times, alignment_of(row)};
     }
-    if (schema == &SCHEMA_SCENE) // the texts of values that are computed
-        out[count++] = (struct field){offsetof(struct ir_scene, formulas), sizeof(struct ir_formulas *),
-                                      _Alignof(struct ir_formulas *)};
+    if (schema == &SCHEMA_SCENE) { // the texts of values that are computed, and what bodies are copies of
+        out[count++] = (struct field){offsetof(struct ir_scene, formulas), sizeof(void *), _Alignof(void *)};
+        out[count++] = (struct field){offsetof(struct ir_scene, copies), sizeof(void *), _Alignof(void *)};
+    }
     qsort(out, count, sizeof out[0], by_offset);
     return count;
 }
@@ -166,11 +153,10 @@ static void test_every_member_is_counted(void **state) {
     char *header = read_text("grammar/ir.h");
     for (size_t i = 0; i < sizeof structures / sizeof structures[0]; i++) {
         struct field fields[64];
-        size_t known = known_fields(structures[i].schema, fields);
+        const size_t known = known_fields(structures[i].schema, fields);
         size_t declared = declared_members(header, structures[i].structure);
         if (known != declared)
-            fail_msg("struct %s has %zu members, its element knows %zu", structures[i].structure, declared,
-                     known);
+            fail_msg("struct %s has %zu members, not %zu", structures[i].structure, declared, known);
     }
     free(header);
 }
@@ -511,6 +497,9 @@ static void check_scene_text(const struct schema_row *row, const char *text) {
     case SCHEMA_PAIR:
     case SCHEMA_POINT:
         check_numbers(row, text, 2);
+        break;
+    case SCHEMA_QUAD:
+        check_numbers(row, text, 4);
         break;
     case SCHEMA_VECTOR:
     case SCHEMA_COLOR:
