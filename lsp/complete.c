@@ -91,6 +91,7 @@ struct completing {
     json_t *range;  // of the word
     json_t *known;  // labels that were offered
     bool has_value; // a key is typed whose value is there already
+    str detail;     // of what is offered; empty: it has none
     json_t *items;
 };
 
@@ -117,6 +118,8 @@ static json_t *offer_text(struct completing *c, str label, enum completion_kind 
     json_t *edit = json_object();
     json_object_set_new(item, "label", name);
     json_object_set_new(item, "kind", json_integer(kind));
+    if (c->detail.len)
+        json_object_set_new(item, "detail", position_string(c->detail));
     if (doc)
         json_object_set_new(item, "documentation", json_string(doc));
     json_object_set(edit, "range", c->range);
@@ -210,6 +213,8 @@ static str detail_of(struct arena *arena, const struct context_variable *variabl
     double number;
     if (variable->value.len == 0)
         return STR("");
+    if (variable->is_parameter)
+        return arena_format(arena, variable->is_list ? "[%.*s]" : "%.*s", STR_ARG(variable->value));
     if (variable->is_list) {
         const uint32_t count = ir_values_count(variable->value);
         return count == 1 ? STR("one value") : arena_format(arena, "one of %u values", count);
@@ -234,33 +239,49 @@ static bool is_of_named(const struct request *request, str text, str key) {
     return false;
 }
 
-// Where the text of the variable begins that is being typed; the text's end: none is.
-static const char *typed_variable(const struct completing *c, str text) {
+// The variable or parameter that is being typed.
+struct typed_name {
+    const struct schema_element *schema;
+    const char *begin; // of its text; NULL: none is typed
+};
+
+static struct typed_name typed_name(const struct completing *c, str text) {
     const char *at = c->typed.key.ptr;
     const struct context context =
         context_at(c->request->document->path, text, at ? (size_t)(at - text.ptr) : c->typed.begin);
-    if (context.named == &SCHEMA_VARIABLE || (context.schema == &SCHEMA_VARIABLE && !context.is_xml))
-        return at;
-    for (; context.schema == &SCHEMA_VARIABLE && at > text.ptr; at--)
-        if (*at == '<')
-            return at;
-    return text.ptr + text.len;
+    const struct schema_element *schema = context.named ? context.named : context.schema;
+    if (schema != &SCHEMA_VARIABLE && schema != &SCHEMA_PARAMETER)
+        return (struct typed_name){NULL, NULL};
+    for (; context.is_xml && at > text.ptr && *at != '<'; at--)
+        ;
+    return (struct typed_name){schema, at};
 }
 
-// Those of the entry; in what makes a variable, those before it.
+// Whether it is known where another is typed: in what makes a variable, those of its entry that are before
+// it.
+static bool is_in_reach(const struct context_variable *v, struct typed_name typed) {
+    if (!typed.begin || v->is_parameter != (typed.schema == &SCHEMA_PARAMETER) || v->is_around)
+        return true;
+    if (!v->is_parameter || v->name.ptr <= typed.begin)
+        return v->name.ptr < typed.begin;
+    return *typed.begin != '<' || memchr(typed.begin + 1, '<', (size_t)(v->name.ptr - typed.begin));
+}
+
+// Those of the entry, and of what is around it.
 static void offer_variables(struct completing *c) {
     struct arena *arena = c->request->arena;
-    struct context_variable variables[IR_VARIABLES_MOST];
+    struct context_variable variables[CONTEXT_VARIABLES_MOST];
     const str text = document_text(c->request->document);
     const uint32_t count = context_variables(c->request->document->path, text, c->typed.begin, variables);
-    const char *typed = count ? typed_variable(c, text) : NULL;
-    for (uint32_t i = 0; i < count && variables[i].name.ptr < typed; i++) {
+    const struct typed_name typed = typed_name(c, text);
+    for (uint32_t i = 0; i < count; i++) {
         const struct context_variable *v = &variables[i];
-        json_t *item = offer_text(c, v->name, COMPLETION_VARIABLE, SCHEMA_VARIABLE.doc, v->name);
-        const str detail = detail_of(arena, v);
-        if (item && detail.len)
-            json_object_set_new(item, "detail", position_string(detail));
+        const char *doc = v->is_parameter ? SCHEMA_PARAMETER.doc : SCHEMA_VARIABLE.doc;
+        c->detail = detail_of(arena, v);
+        if (is_in_reach(v, typed))
+            offer(c, v->name, COMPLETION_VARIABLE, doc);
     }
+    c->detail = STR("");
 }
 
 // Variables, parameters and the language's own words, in the place of the name that is typed.
@@ -416,6 +437,36 @@ static void offer_rows(struct completing *c, const struct context *context) {
     }
 }
 
+// The parameters of the object that the instance shows, without those that it gives a value.
+static void offer_arguments(struct completing *c, const struct context *context) {
+    const str text = document_text(c->request->document);
+    struct context_given *given = ARENA_NEW(c->request->arena, struct context_given);
+    context_given(c->request->document->path, text, c->typed.begin, given);
+    const str object = arena_copy(c->request->arena, given->object);
+    size_t index;
+    const json_t *argument;
+    json_array_foreach(json_object_get(c->request->scene->arguments, object.ptr), index, argument) {
+        const char *name = json_string_value(json_object_get(argument, "name"));
+        const char *value = json_string_value(json_object_get(argument, "value"));
+        const char *doc = json_string_value(json_object_get(argument, "doc"));
+        const str mended = escaped(c->request->arena, str_from(value));
+        bool is_given = false;
+        for (uint32_t i = 0; i < given->count; i++)
+            is_given |= str_equal_cstr(given->names[i], name);
+        if (is_given || !*name)
+            continue;
+        c->detail = str_from(value);
+        if (context->is_xml || c->has_value)
+            offer(c, str_from(name), COMPLETION_VARIABLE, *doc ? doc : SCHEMA_PARAMETER.doc);
+        else
+            offer_insert(c, str_from(name), *doc ? doc : SCHEMA_PARAMETER.doc,
+                         arena_format(c->request->arena, "%s: ", name),
+                         arena_format(c->request->arena, "%s: ${1:%.*s}", name, STR_ARG(mended)),
+                         COMPLETION_VARIABLE);
+    }
+    c->detail = STR("");
+}
+
 // Whether the name is followed by its value already.
 static bool is_followed(str text, size_t at, bool is_xml) {
     while (at < text.len && (is_word(text.ptr[at]) || text.ptr[at] == ' '))
@@ -453,11 +504,14 @@ json_t *server_completion(const struct request *request) {
             offer_for(&completing, &schema_elements[e]->rows[i]);
     if (in_expression)
         offer_expression(&completing);
+    const struct context context = context_at(request->document->path, text, typed.begin);
     if (!typed.key.len) {
-        struct context context = context_at(request->document->path, text, typed.begin);
         completing.has_value = is_followed(text, request->offset, context.is_xml);
         offer_rows(&completing, &context);
     }
+    if (context.is_xml ? context.schema == &SCHEMA_WITH && str_equal(typed.key, STR("name"))
+                       : context.named == &SCHEMA_WITH && !typed.key.len)
+        offer_arguments(&completing, &context);
     json_decref(completing.range);
     json_decref(completing.known);
     json_t *list = json_object();

@@ -1,4 +1,5 @@
 #include "lsp/context.h"
+#include "lsp/context_maps.h"
 
 #include "parser/tree/reader.h"
 
@@ -20,12 +21,6 @@ static void push(struct path *path, str key) {
 }
 
 // ---- YAML
-
-static size_t line_begin(str text, size_t at) {
-    while (at > 0 && text.ptr[at - 1] != '\n')
-        at--;
-    return at;
-}
 
 // Where the content of a line begins, after spaces and the '-' of entries, and before `most`. *dash: the
 // column of the last '-'; -1: none.
@@ -54,19 +49,6 @@ static str key_before(str text, size_t begin, size_t end) {
     return str_slice(text, end, stop);
 }
 
-// The bracket that is open at `at`, looking back; text.len: none.
-static size_t open_bracket(str text, size_t at) {
-    int depth = 0;
-    size_t least = at > 65536 ? at - 65536 : 0;
-    for (; at > least; at--) {
-        char c = text.ptr[at - 1];
-        depth += c == '}' || c == ']';
-        if ((c == '{' || c == '[') && depth-- == 0)
-            return at - 1;
-    }
-    return text.len;
-}
-
 // A key at the beginning of a line with nothing after it but its value.
 static str line_key(str text, size_t from) {
     size_t end = from;
@@ -77,7 +59,7 @@ static str line_key(str text, size_t from) {
 
 // Collects the keys above a place in block style, by columns.
 static void climb(str text, size_t at, struct path *path) {
-    size_t begin = line_begin(text, at);
+    size_t begin = context_line_begin(text, at);
     int dash;
     int column = (int)(content_begin(text, begin, at, &dash) - begin);
     int limit = dash >= 0 ? dash : column; // a parent key is left of it; it may be directly above a '-'
@@ -86,7 +68,7 @@ static void climb(str text, size_t at, struct path *path) {
         push(path, STR(""));
     while (begin > 0 && limit + in_list > 0) {
         size_t end = begin - 1;
-        begin = line_begin(text, end);
+        begin = context_line_begin(text, end);
         size_t from = content_begin(text, begin, end, &dash);
         int here = (int)(from - begin);
         if (from == end || text.ptr[from] == '#' || text.ptr[from] == '\r')
@@ -111,14 +93,14 @@ static struct path yaml_path(str text, size_t offset, bool *is_flow) {
     struct path path = {.count = 0};
     size_t at = offset;
     size_t bracket;
-    while ((bracket = open_bracket(text, at)) != text.len) {
+    while ((bracket = context_open_bracket(text, at)) != text.len) {
         *is_flow = true;
-        push(&path, key_before(text, line_begin(text, bracket), bracket));
+        push(&path, key_before(text, context_line_begin(text, bracket), bracket));
         at = bracket;
     }
     // The key in front of the outermost bracket is at the beginning of its line, or the line has a '-' there.
     if (*is_flow) {
-        size_t begin = line_begin(text, at);
+        size_t begin = context_line_begin(text, at);
         int dash;
         size_t from = content_begin(text, begin, at, &dash);
         at = from;

@@ -5,7 +5,6 @@
 #ifndef GLINT_LSP_CONTEXT_H
 #define GLINT_LSP_CONTEXT_H
 
-#include "grammar/ir_copies.h"
 #include "grammar/schema.h"
 
 struct context {
@@ -21,14 +20,30 @@ struct context context_at(str path, str text, size_t offset);
 
 // ---- context_variables.c
 
-// A variable as the text has it.
+enum {
+    CONTEXT_VARIABLES_MOST = 128
+};
+
+// A variable of `for`, or a parameter, as the text has it.
 struct context_variable {
     str name;
-    str value; // a count; the items of a list
+    str value; // a count; the items of a list; what a parameter is
     bool is_list;
+    bool is_parameter;
+    bool is_around; // not of the innermost entry with `for`
 };
-// The variables of the entry at a place; returns their number.
+// Those that are in reach at a place, the nearest first, with the scene's own parameters in this file;
+// returns their number.
 uint32_t context_variables(str path, str text, size_t offset,
-                           struct context_variable variables[IR_VARIABLES_MOST]);
+                           struct context_variable variables[CONTEXT_VARIABLES_MOST]);
+
+// What an instance says of its object.
+struct context_given {
+    str object;                        // its name; empty: it has none
+    str names[CONTEXT_VARIABLES_MOST]; // of parameters that have a value already
+    uint32_t count;
+};
+// `offset`: where the name of a parameter is typed in `with`, which does not count.
+void context_given(str path, str text, size_t offset, struct context_given *given);
 
 #endif

@@ -1,64 +1,34 @@
-// The variables of the entry at a place, from a text that may be torn: `for: {i: 12, p: [[0, 0, 1]]}` in
-// YAML,
-// `<For name="i" count="12"/>` in XML.
+// The names that expressions at a place see, from a text that may be torn: `for: {i: 12, p: [[0, 0, 1]]}` and
+// `parameters: {h: 3}` in YAML, `<For name="i" count="12"/>` and `<Parameter name="h" value="3"/>` in XML.
+// And what an instance gives its object.
 #include "lsp/context.h"
 
 #include "core/expression.h"
+#include "lsp/context_maps.h"
 #include "parser/tree/reader.h"
 
 #include <string.h>
 
 enum {
-    BRACKETS_MOST = 65536, // bytes that are searched for them
+    LEVELS_MOST = 100, // maps or elements around a place that are read
 };
 
 struct finding {
     str text;
     struct context_variable *variables;
     uint32_t count;
+    uint32_t entries; // that have variables, from the inside outwards
+    bool is_parameter;
 };
 
 static void add_variable(struct finding *finding, str name, str value, bool is_list) {
-    if (!expression_is_name(name) || finding->count == IR_VARIABLES_MOST)
+    if (!expression_is_name(name) || finding->count == CONTEXT_VARIABLES_MOST)
         return;
-    finding->variables[finding->count++] = (struct context_variable){name, str_trim(value), is_list};
-}
-
-static bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
-
-static size_t skip_blanks(str text, size_t at, size_t end) {
-    while (at < end && is_blank(text.ptr[at]))
-        at++;
-    return at;
+    finding->variables[finding->count++] = (struct context_variable){
+        name, str_trim(value), is_list, finding->is_parameter, finding->entries > 0};
 }
 
 // ---- YAML
-
-// A key with or without quotes, and its colon. *after: behind that. Empty: there is none.
-static str take_key(str text, size_t at, size_t end, size_t *after) {
-    const bool is_quoted = at < end && (text.ptr[at] == '"' || text.ptr[at] == '\'');
-    size_t begin = at + is_quoted, stop = begin;
-    while (stop < end && !strchr(" \t\r\n:,{}[]\"'#", text.ptr[stop]))
-        stop++;
-    at = stop + (is_quoted && stop < end);
-    while (at < end && (text.ptr[at] == ' ' || text.ptr[at] == '\t'))
-        at++;
-    *after = at + 1;
-    return at < end && text.ptr[at] == ':' ? str_slice(text, begin, stop) : STR("");
-}
-
-// Where a value in braces ends: at the comma or bracket behind it.
-static size_t value_end(str text, size_t at, size_t end) {
-    for (int depth = 0; at < end; at++) {
-        const char c = text.ptr[at];
-        if (depth == 0 && (c == ',' || c == '}' || c == ']'))
-            break;
-        depth += (c == '{' || c == '[' || c == '(') - (c == '}' || c == ']' || c == ')');
-    }
-    return at;
-}
 
 static void add_yaml(struct finding *finding, str name, str value, bool is_list) {
     const bool has_brackets = value.len && value.ptr[0] == '[';
@@ -71,170 +41,62 @@ static void add_value(struct finding *finding, str name, size_t begin, size_t en
     str value = str_trim(str_slice(finding->text, begin, end));
     size_t after;
     if (value.len && value.ptr[0] == '{') { // {count: 5}, {values: [...]}
-        const str key = take_key(value, skip_blanks(value, 1, value.len), value.len, &after);
+        const str key = context_take_key(value, context_skip_spaces(value, 1, value.len), value.len, &after);
         const bool is_list = str_equal(key, STR("values"));
-        value = key.len ? str_slice(value, after, value_end(value, after, value.len)) : STR("");
+        value = key.len ? str_slice(value, after, context_value_end(value, after, value.len)) : STR("");
         add_yaml(finding, name, str_trim(value), is_list);
         return;
     }
     add_yaml(finding, name, value, false);
 }
 
-static void read_braces(struct finding *finding, size_t at, size_t end) {
+// The map that is the value of a key.
+static bool map_in(str text, const struct context_map *outer, const struct context_key *key,
+                   struct context_map *map) {
+    const size_t first = context_skip_spaces(text, key->begin, key->end);
+    *map =
+        (struct context_map){.begin = first + 1, .end = key->end, .column = outer->column, .is_flow = true};
+    if (first < key->end && text.ptr[first] == '{')
+        return true;
+    map->is_flow = false;
+    for (size_t at = context_line_end(text, key->begin, key->end); at < key->end;
+         at = context_line_end(text, at + 1, key->end)) {
+        map->column = context_column(text, at + 1, &map->begin);
+        if (map->column >= 0)
+            return map->column > outer->column;
+    }
+    return false;
+}
+
+static void read_names(struct finding *finding, const struct context_map *map) {
     const str text = finding->text;
-    while (at < end && text.ptr[at] != '}') {
-        size_t after;
-        at = skip_blanks(text, at, end);
-        const str name = take_key(text, at, end, &after);
-        const size_t stop = value_end(text, name.len ? after : at, end);
-        if (name.len)
-            add_value(finding, name, after, stop);
-        if (stop >= end || text.ptr[stop] != ',')
-            break;
-        at = stop + 1;
-    }
-}
-
-static size_t line_end(str text, size_t at, size_t end) {
-    const char *found = at < end ? memchr(text.ptr + at, '\n', end - at) : NULL;
-    return found ? (size_t)(found - text.ptr) : end;
-}
-
-static size_t line_begin(str text, size_t at) {
-    while (at > 0 && text.ptr[at - 1] != '\n')
-        at--;
-    return at;
-}
-
-// The column of the first thing in a line; *at: its place. -1: the line is empty, or a comment.
-static int column_of(str text, size_t begin, size_t *at) {
-    *at = begin;
-    while (*at < text.len && text.ptr[*at] == ' ')
-        ++*at;
-    return *at >= text.len || strchr("\r\n#", text.ptr[*at]) ? -1 : (int)(*at - begin);
-}
-
-// The end of lines that are further right than `column`, from the next line on.
-static size_t block_end(str text, size_t at, int column) {
-    size_t from;
-    for (at = line_end(text, at, text.len); at < text.len; at = line_end(text, at + 1, text.len)) {
-        const int here = column_of(text, at + 1, &from);
-        if (here >= 0 && here <= column)
-            return at;
-    }
-    return text.len;
-}
-
-// The variables behind `for:`, whose line begins at a column.
-static void read_variables(struct finding *finding, size_t at, size_t end, int column) {
-    const str text = finding->text;
-    const size_t first = skip_blanks(text, at, end);
-    if (first < end && text.ptr[first] == '{') {
-        read_braces(finding, first + 1, end);
-        return;
-    }
-    int own = -1;
-    for (at = line_end(text, at, end); at < end; at = line_end(text, at + 1, end)) {
-        size_t from, after;
-        const int here = column_of(text, at + 1, &from);
-        if (here < 0)
-            continue;
-        if (here <= column)
-            return;
-        own = own < 0 ? here : own;
-        const str name = here == own ? take_key(text, from, end, &after) : STR("");
-        const size_t stop = name.len ? line_end(text, after, end) : 0;
-        if (name.len)
-            add_value(finding, name, after, stop);
+    struct context_key key;
+    for (size_t at = map->begin; context_next_key(text, map, &at, &key);) {
+        const size_t end = map->is_flow ? key.end : context_line_end(text, key.begin, key.end);
+        const uint32_t before = finding->count;
+        add_value(finding, key.name, key.begin, end);
         // A list may be in the lines below.
-        if (name.len && str_trim(str_slice(text, after, stop)).len == 0)
-            finding->variables[finding->count - (finding->count > 0)].is_list = true;
+        if (finding->count > before && !map->is_flow && str_trim(str_slice(text, key.begin, end)).len == 0)
+            finding->variables[before].is_list = true;
     }
-}
-
-// The bracket that is open at `at`, looking back; text.len: none.
-static size_t open_brace(str text, size_t at) {
-    int depth = 0;
-    const size_t least = at > BRACKETS_MOST ? at - BRACKETS_MOST : 0;
-    for (; at > least; at--) {
-        const char c = text.ptr[at - 1];
-        depth += c == '}' || c == ']';
-        if ((c == '{' || c == '[') && depth-- == 0)
-            return at - 1;
-    }
-    return text.len;
-}
-
-// `for` among the keys of braces that begin before `at`.
-static bool read_flow_entry(struct finding *finding, size_t at) {
-    const str text = finding->text;
-    size_t from;
-    const int column = column_of(text, line_begin(text, at), &from);
-    const size_t end = block_end(text, at, column);
-    while (at < end && text.ptr[at] != '}') {
-        size_t after;
-        at = skip_blanks(text, at, end);
-        const str key = take_key(text, at, end, &after);
-        if (str_equal(key, STR("for"))) {
-            read_variables(finding, after, end, column);
-            return true;
-        }
-        at = value_end(text, key.len ? after : at, end);
-        if (at >= end || text.ptr[at] != ',')
-            return false;
-        at++;
-    }
-    return false;
-}
-
-// `for` among the keys in the lines from `at`, all of which begin at a column.
-static bool read_block_entry(struct finding *finding, size_t at, int column) {
-    const str text = finding->text;
-    const size_t end = block_end(text, at, column - 1);
-    while (at < end) {
-        size_t after;
-        if (str_equal(take_key(text, at, end, &after), STR("for"))) {
-            read_variables(finding, after, end, column);
-            return true;
-        }
-        int here = -1;
-        do {
-            at = line_end(text, at, end) + 1;
-            size_t from;
-            here = at < end ? column_of(text, at, &from) : -1;
-            if (here == column)
-                at = from;
-        } while (at < end && here != column);
-    }
-    return false;
 }
 
 static void find_yaml(struct finding *finding, size_t offset) {
     const str text = finding->text;
-    size_t at = offset, bracket;
-    while ((bracket = open_brace(text, at)) != text.len) {
-        if (text.ptr[bracket] == '{' && read_flow_entry(finding, bracket + 1))
-            return;
-        at = bracket;
-    }
-    size_t from, begin = line_begin(text, at);
-    int limit = column_of(text, begin, &from); // entries begin left of it
-    limit = limit < 0 || from > at ? (int)(at - begin) : limit;
-    for (bool is_first = true;; is_first = false) {
-        const int here = column_of(text, begin, &from);
-        const bool is_dash =
-            here >= 0 && text.ptr[from] == '-' && from + 1 < text.len && is_blank(text.ptr[from + 1]);
-        if (is_dash && (here < limit || is_first)) {
-            size_t content = from + 1;
-            while (content < text.len && (text.ptr[content] == ' ' || text.ptr[content] == '-'))
-                content++;
-            if (read_block_entry(finding, content, (int)(content - begin)))
-                return;
+    struct context_climb climb = context_climb_from(text, offset);
+    struct context_map map, names;
+    struct context_key key;
+    for (int level = 0; level < LEVELS_MOST && context_climb(&climb, &map); level++) {
+        bool is_entry = false;
+        for (size_t at = map.begin; context_next_key(text, &map, &at, &key);) {
+            finding->is_parameter = str_equal(key.name, STR("parameters"));
+            if (!finding->is_parameter && !str_equal(key.name, STR("for")))
+                continue;
+            is_entry |= !finding->is_parameter;
+            if (map_in(text, &map, &key, &names))
+                read_names(finding, &names);
         }
-        limit = here >= 0 && here < limit ? here : limit;
-        if (begin == 0 || limit <= 0)
-            return;
-        begin = line_begin(text, begin - 1);
+        finding->entries += is_entry;
     }
 }
 
@@ -243,12 +105,12 @@ static void find_yaml(struct finding *finding, size_t offset) {
 // The value of an attribute in a tag; empty: it has none.
 static str attribute(str tag, str name) {
     for (size_t i = 0; i + name.len < tag.len; i++) {
-        if (!is_blank(tag.ptr[i]) || !str_starts_with(str_slice(tag, i + 1, tag.len), name))
+        if (!context_is_space(tag.ptr[i]) || !str_starts_with(str_slice(tag, i + 1, tag.len), name))
             continue;
-        size_t at = skip_blanks(tag, i + 1 + name.len, tag.len);
+        size_t at = context_skip_spaces(tag, i + 1 + name.len, tag.len);
         if (at >= tag.len || tag.ptr[at] != '=')
             continue;
-        at = skip_blanks(tag, at + 1, tag.len);
+        at = context_skip_spaces(tag, at + 1, tag.len);
         const char *end = at < tag.len && strchr("\"'", tag.ptr[at])
                               ? memchr(tag.ptr + at + 1, tag.ptr[at], tag.len - at - 1)
                               : NULL;
@@ -257,10 +119,11 @@ static str attribute(str tag, str name) {
     return STR("");
 }
 
+// A list has `values`, a variable `count`, a parameter `value`.
 static void add_tag(struct finding *finding, str tag) {
     const str values = attribute(tag, STR("values"));
-    add_variable(finding, attribute(tag, STR("name")), values.len ? values : attribute(tag, STR("count")),
-                 values.len > 0);
+    const str single = attribute(tag, finding->is_parameter ? STR("value") : STR("count"));
+    add_variable(finding, attribute(tag, STR("name")), values.len ? values : single, values.len > 0);
 }
 
 static bool is_tag(str tag, str name) {
@@ -285,47 +148,141 @@ static bool is_whole(str tag) {
     return false;
 }
 
-// The <For> elements that are children of the element at `at`.
-static bool read_children(struct finding *finding, size_t at) {
-    int depth = 0;
-    str tag = next_tag(finding->text, &at);
-    for (depth = is_whole(tag) ? 0 : 1; depth > 0 && (tag = next_tag(finding->text, &at)).len;) {
-        if (tag.len > 1 && strchr("!?", tag.ptr[1]))
+// The elements that are open at a place, from the inside outwards.
+struct open_tags {
+    str text;
+    size_t offset, at;
+    int closed;
+};
+
+// The next one; *at: where it begins.
+static bool next_open_tag(struct open_tags *open, str *tag, size_t *at) {
+    const str text = open->text;
+    for (; open->at > 0; open->at--) {
+        if (text.ptr[open->at - 1] != '<' || (open->at < text.len && strchr("!?", text.ptr[open->at])))
             continue;
-        if (depth == 1 && is_tag(tag, STR("<For")))
-            add_tag(finding, tag);
-        depth += tag.len > 1 && tag.ptr[1] == '/' ? -1 : !is_whole(tag);
+        size_t end = open->at - 1;
+        *tag = next_tag(text, &end);
+        const bool is_here = end >= open->offset;
+        if (tag->len > 1 && tag->ptr[1] == '/') {
+            open->closed += !is_here;
+        } else if (is_here || !is_whole(*tag)) {
+            if (open->closed == 0 || is_here) {
+                *at = --open->at;
+                return true;
+            }
+            open->closed--;
+        }
     }
-    return finding->count > 0;
+    return false;
 }
 
-// From the inside outwards: each element that is open at the place.
+// The tags of the children of the element that begins at `at`: first that of the element itself is taken.
+struct children {
+    str text;
+    size_t at;
+    int depth;
+};
+
+static bool next_child(struct children *children, str *tag) {
+    while (children->depth > 0 && (*tag = next_tag(children->text, &children->at)).len) {
+        const bool is_child = children->depth == 1;
+        if (tag->len > 1 && strchr("!?", tag->ptr[1]))
+            continue;
+        children->depth += tag->len > 1 && tag->ptr[1] == '/' ? -1 : !is_whole(*tag);
+        if (is_child && children->depth >= 1)
+            return true;
+    }
+    return false;
+}
+
+static struct children children_of(str text, size_t at) {
+    struct children children = {text, at, 0};
+    children.depth = !is_whole(next_tag(text, &children.at));
+    return children;
+}
+
 static void find_xml(struct finding *finding, size_t offset) {
-    const str text = finding->text;
-    int closed = 0;
-    for (size_t at = offset; at > 0; at--) {
-        if (text.ptr[at - 1] != '<' || (at < text.len && strchr("!?", text.ptr[at])))
-            continue;
-        size_t end = at - 1;
-        const str tag = next_tag(text, &end);
-        const bool is_here = end >= offset;
-        if (tag.len > 1 && tag.ptr[1] == '/')
-            closed += !is_here;
-        else if (!is_here && is_whole(tag))
-            continue;
-        else if (closed > 0)
-            closed--;
-        else if (read_children(finding, at - 1))
-            return;
+    struct open_tags open = {finding->text, offset, offset, 0};
+    str tag;
+    size_t at;
+    for (int level = 0; level < LEVELS_MOST && next_open_tag(&open, &tag, &at); level++) {
+        struct children children = children_of(finding->text, at);
+        bool is_entry = false;
+        while (next_child(&children, &tag)) {
+            finding->is_parameter = is_tag(tag, STR("<Parameter"));
+            const bool is_variable = is_tag(tag, STR("<For"));
+            is_entry |= is_variable;
+            if (is_variable || finding->is_parameter)
+                add_tag(finding, tag);
+        }
+        finding->entries += is_entry;
     }
 }
 
 uint32_t context_variables(str path, str text, size_t offset,
-                           struct context_variable variables[IR_VARIABLES_MOST]) {
-    struct finding finding = {text, variables, 0};
+                           struct context_variable variables[CONTEXT_VARIABLES_MOST]) {
+    struct finding finding = {.text = text, .variables = variables};
     if (reader_is_xml(path, text))
         find_xml(&finding, offset);
     else
         find_yaml(&finding, offset);
     return finding.count;
+}
+
+// ---- what an instance gives
+
+static void add_given(struct context_given *given, str name) {
+    if (name.len && given->count < CONTEXT_VARIABLES_MOST)
+        given->names[given->count++] = name;
+}
+
+// A name without the quotes around it and the comment after it.
+static str bare_name(str value) {
+    for (size_t i = 1; i < value.len; i++)
+        if (value.ptr[i] == '#' && context_is_space(value.ptr[i - 1]))
+            value = str_slice(value, 0, i);
+    value = str_trim(value);
+    if (value.len >= 2 && strchr("\"'", value.ptr[0]) && value.ptr[value.len - 1] == value.ptr[0])
+        return str_slice(value, 1, value.len - 1);
+    return value;
+}
+
+static void given_in_yaml(str text, size_t offset, struct context_given *given) {
+    struct context_climb climb = context_climb_from(text, offset);
+    struct context_map map;
+    struct context_key key;
+    if (!context_climb(&climb, &map))
+        return;
+    for (size_t at = map.begin; context_next_key(text, &map, &at, &key);)
+        if (key.name.ptr > text.ptr + offset || key.name.ptr + key.name.len < text.ptr + offset)
+            add_given(given, key.name);
+    if (!context_climb(&climb, &map))
+        return;
+    for (size_t at = map.begin; context_next_key(text, &map, &at, &key);)
+        if (str_equal(key.name, STR("object")))
+            given->object = bare_name(str_slice(
+                text, key.begin, map.is_flow ? key.end : context_line_end(text, key.begin, key.end)));
+}
+
+static void given_in_xml(str text, size_t offset, struct context_given *given) {
+    struct open_tags open = {text, offset, offset, 0};
+    str tag;
+    size_t own, at;
+    if (!next_open_tag(&open, &tag, &own) || !next_open_tag(&open, &tag, &at))
+        return;
+    given->object = attribute(tag, STR("object"));
+    struct children children = children_of(text, at);
+    while (next_child(&children, &tag))
+        if (tag.ptr != text.ptr + own && is_tag(tag, STR("<With")))
+            add_given(given, attribute(tag, STR("name")));
+}
+
+void context_given(str path, str text, size_t offset, struct context_given *given) {
+    given->object = STR("");
+    given->count = 0;
+    if (reader_is_xml(path, text))
+        given_in_xml(text, offset, given);
+    else
+        given_in_yaml(text, offset, given);
 }

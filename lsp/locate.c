@@ -119,8 +119,10 @@ bool locate_name(struct session *session, const struct located *at, struct arena
         return false;
     out->name = ir_walk_key(out->schema, out->element);
     out->definition = locate_name_place(session, out->schema, out->element);
-    if (out->schema == &SCHEMA_VARIABLE && !is_word)
+    if ((out->schema == &SCHEMA_VARIABLE || out->schema == &SCHEMA_PARAMETER) && !is_word) {
         out->scope = locate_scope(session, out->element, arena);
+        out->scope.reach = UINT32_MAX;
+    }
     struct users users = {session, arena, out->element, out};
     locate_walk(&SCHEMA_SCENE, scene, note_users, &users);
     if (out->schema == &SCHEMA_PARAMETER || out->schema == &SCHEMA_VARIABLE)

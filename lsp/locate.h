@@ -37,20 +37,29 @@ typedef void locate_visit(void *context, const struct schema_element *schema, co
 void locate_walk(const struct schema_element *schema, const void *element, locate_visit *visit,
                  void *context);
 
-// The entry that an element is in, or is, whose variables are known in its expressions.
+// The names that an element's expressions see before those of the scene: variables of the entry that it is
+// in, or is, parameters of the object that it is in, and, where that is in place, what its instance sees.
 struct located_scope {
-    const struct schema_row *list; // of the scene; NULL: it is in none that can have variables
+    const struct schema_row
+        *list; // of the entry, in the scene or in an object; NULL: it is in none that can have variables
     const void *entry;
-    uint32_t index; // in the list
-    uint32_t reach; // so many of the variables: in what makes a variable, those before it
+    uint32_t reach;                     // so many of the variables: in what makes a variable, those before it
+    const struct ir_object *object;     // NULL: it is in none
+    const struct located_scope *around; // NULL: only the scene's parameters
 };
 // All variables of the entry.
 struct ir_variables locate_variables(const struct located_scope *scope);
-// The same walk through the scene as it is written, but for the scene itself.
+// The same walk through the scene as it is written, but for the scene itself. Scopes are in `arena`.
 typedef void locate_visit_scoped(void *context, const struct schema_element *schema, const void *element,
                                  const struct located_scope *scope);
 void locate_walk_scoped(const struct session *session, struct arena *arena, locate_visit_scoped *visit,
                         void *context);
+// Whether a row of the table is a list of entries that can have variables.
+bool locate_has_entries(const struct schema_row *row);
+// The object that an instance shows, in the scene as it is written; NULL: none that is known.
+const struct ir_object *locate_shown(const struct session *session, const struct ir_instance *instance);
+// Whether the element is a parameter of an object.
+bool locate_is_argument(const struct schema_element *schema, const struct located_scope *scope);
 
 // ---- names
 
@@ -65,7 +74,7 @@ struct located_name {
         span *items;
         uint32_t count, capacity;
     } uses;
-    struct located_scope scope; // of a variable
+    struct located_scope scope; // of a variable, and of an object's parameter: where it is written
     bool is_shared;             // a place in `uses` is also another's, through an anchor
 };
 // The name at a located place, in a definition or a reference. Uses are in `arena`, which must be guarded.
@@ -99,5 +108,14 @@ uint32_t locate_copies(const struct session *session, const struct located_scope
 // copies". false: what is there is not computed, or has no value.
 bool locate_print_value(const struct session *session, const struct located *at, struct arena *arena,
                         struct strbuf *out);
+// The number of instances that show an object, each copy of one.
+uint32_t locate_instances(const struct session *session, const struct ir_object *object, struct arena *arena);
+// Appends what a parameter of an object comes to in the instances that show it: "2 to 3 in 12 instances".
+// false: in none.
+bool locate_print_argument(const struct session *session, const struct located_scope *scope,
+                           const struct ir_parameter *parameter, struct arena *arena, struct strbuf *out);
+// The same of what an instance gives a parameter. `scope`: of that place.
+bool locate_print_given(const struct session *session, const struct located_scope *scope,
+                        const struct ir_with *with, struct arena *arena, struct strbuf *out);
 
 #endif

@@ -1,5 +1,5 @@
 // What expressions have come to, in all copies of the entry that they are in.
-#include "lsp/locate.h"
+#include "lsp/locate_given.h"
 #include "lsp/position.h"
 
 #include "core/expression.h"
@@ -12,38 +12,43 @@
 #include <string.h>
 
 enum {
-    TRIPLES_MOST = 3, // that are shown
-    LIST_BYTES = 200, // of a variable's values
+    TRIPLES_MOST = 3,       // that are shown
+    LIST_BYTES = 200,       // of a variable's values
+    INSTANCES_MOST = 10000, // of which values are computed
 };
 
 // ---- variables
 
-// The copies of the scene's list; NULL: it is as written.
-static const struct ir_copy *copies_of(const struct session *session, const struct located_scope *scope,
-                                       uint32_t *count) {
-    const struct ir_copies *copies = session->origin.copies;
-    const uint32_t row = (uint32_t)(scope->list - SCHEMA_SCENE.rows);
-    *count = ir_walk_list(scope->list, session->scene).count;
-    return copies ? copies->lists[row] : NULL;
+// The evaluated scene's list of what an entry is.
+static const struct schema_row *list_of(const struct located_scope *scope) {
+    return ir_walk_pool(scope->list->child);
+}
+
+// Whether an item of that list is the entry, or a copy of it.
+static bool is_made_of(const struct schema_row *list, struct ir_any_list items, uint32_t i,
+                       const struct located_scope *scope) {
+    return ir_walk_head(ir_walk_item(list, items, i))->origin == ir_walk_head(scope->entry)->origin;
 }
 
 uint32_t locate_copies(const struct session *session, const struct located_scope *scope) {
-    uint32_t count, found = 0;
-    const struct ir_copy *made = copies_of(session, scope, &count);
-    for (uint32_t i = 0; made && i < count; i++)
-        found += made[i].entry == scope->index;
-    return made ? found : 1;
+    if (!scope->list)
+        return 1;
+    const struct ir_any_list items = ir_walk_list(list_of(scope), session->scene);
+    uint32_t found = 0;
+    for (uint32_t i = 0; i < items.count; i++)
+        found += is_made_of(list_of(scope), items, i, scope);
+    return found;
 }
 
 static bool find_range(const struct session *session, const struct located_scope *scope, uint32_t variable,
                        uint32_t *least, uint32_t *most) {
-    uint32_t count;
-    const struct ir_copy *made = copies_of(session, scope, &count);
+    const struct schema_row *list = list_of(scope);
+    const struct ir_any_list items = ir_walk_list(list, session->scene);
     *least = UINT32_MAX;
     *most = 0;
-    for (uint32_t i = 0; made && i < count; i++) {
-        const uint32_t *places = session->origin.copies->places + made[i].places;
-        if (made[i].entry != scope->index || places[0] <= variable)
+    for (uint32_t i = 0; i < items.count; i++) {
+        const uint32_t *places = ir_copies_at(session->origin.copies, list, i);
+        if (!places || places[0] <= variable || !is_made_of(list, items, i, scope))
             continue;
         const uint32_t place = places[1 + variable];
         *least = place < *least ? place : *least;
@@ -191,4 +196,82 @@ bool locate_print_value(const struct session *session, const struct located *at,
     if (copies > 1)
         strbuf_format(out, " in %u copies", copies);
     return true;
+}
+
+// ---- parameters of objects
+
+uint32_t locate_instances(const struct session *session, const struct ir_object *object,
+                          struct arena *arena) {
+    const struct located_copies copies = locate_copies_begin(session, arena);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < session->scene->instances.count; i++) {
+        const struct located_scope *made = locate_made(&copies, i);
+        count += made && locate_shown(session, made->entry) == object;
+    }
+    return count;
+}
+
+struct argument_search {
+    struct located_copies copies;
+    struct arena arena; // for each value anew
+    const struct located_scope *scope;
+    const struct ir_parameter *parameter; // NULL: the text of `with`
+    const struct ir_with *with;
+    struct values values;
+    uint32_t count, taken;
+};
+
+static bool is_asked(const struct argument_search *search, const struct located_scope *made) {
+    return search->with ? made->entry == search->scope->entry
+                        : locate_shown(search->copies.session, made->entry) == search->scope->object;
+}
+
+static void search_values(void *context) {
+    struct argument_search *search = context;
+    const uint32_t count = search->copies.session->scene->instances.count;
+    struct ir_result result;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct located_scope *made = locate_made(&search->copies, i);
+        if (!made || !is_asked(search, made) || search->count++ >= INSTANCES_MOST)
+            continue;
+        arena_reset(&search->arena);
+        search->taken++;
+        if (search->with ? !locate_given(&search->copies, &search->arena, i, search->with->value, &result)
+                         : !locate_argument(&search->copies, &search->arena, i, search->scope,
+                                            search->parameter, &result))
+            continue;
+        search->values.type = result.type;
+        if (result.type == EXPRESSION_TRIPLE)
+            take_triple(&search->values, result.value);
+        else
+            take_number(&search->values, result.value[0]);
+    }
+}
+
+static bool print_found(struct argument_search *search, struct strbuf *out) {
+    arena_init(&search->arena, (size_t)1 << 26);
+    arena_guarded(&search->arena, search_values, search);
+    arena_finish(&search->arena);
+    if (!search->values.is_known)
+        return false;
+    print_values(&search->values, out);
+    if (search->taken < search->count)
+        strbuf_format(out, " in the first %u of %u instances", search->taken, search->count);
+    else if (search->count > 1)
+        strbuf_format(out, " in %u instances", search->count);
+    return true;
+}
+
+bool locate_print_argument(const struct session *session, const struct located_scope *scope,
+                           const struct ir_parameter *parameter, struct arena *arena, struct strbuf *out) {
+    struct argument_search search = {
+        .copies = locate_copies_begin(session, arena), .scope = scope, .parameter = parameter};
+    return print_found(&search, out);
+}
+
+bool locate_print_given(const struct session *session, const struct located_scope *scope,
+                        const struct ir_with *with, struct arena *arena, struct strbuf *out) {
+    struct argument_search search = {
+        .copies = locate_copies_begin(session, arena), .scope = scope, .with = with};
+    return scope->list && print_found(&search, out);
 }

@@ -1,4 +1,5 @@
-// Names in expressions: parameters of the scene, and variables of the entry that the expression is in.
+// Names in expressions: parameters of the scene, of the object that the expression is in, and variables of
+// its entry.
 #include "lsp/locate.h"
 
 #include "core/expression.h"
@@ -92,14 +93,18 @@ static void each_name(const struct session *session, const struct schema_element
 struct meaning {
     const struct schema_element *schema; // NULL: nothing
     const void *element;
+    struct located_scope scope; // where it is written; of a parameter of the scene nothing
 };
 
-static const struct ir_parameter *find_parameter(const struct session *session, str name) {
-    const struct ir_parameters *parameters = &locate_scene(session)->parameters;
-    for (uint32_t i = 0; i < parameters->count; i++)
+static const struct ir_parameter *find_parameter(const struct ir_parameters *parameters, str name) {
+    for (uint32_t i = 0; parameters && i < parameters->count; i++)
         if (name.len && str_equal(parameters->items[i].name, name))
             return &parameters->items[i];
     return NULL;
+}
+
+static const struct ir_parameters *arguments_of(const struct ir_object *object) {
+    return object ? &object->parameters : NULL;
 }
 
 static const struct ir_variable *find_variable(const struct located_scope *scope, str name) {
@@ -110,20 +115,50 @@ static const struct ir_variable *find_variable(const struct located_scope *scope
     return NULL;
 }
 
-static struct meaning meaning_of(const struct session *session, const struct located_scope *scope, str name) {
+// All that an entry or object adds to what is around it.
+static struct meaning meaning_here(const struct located_scope *scope, str name) {
     const struct ir_variable *variable = find_variable(scope, name);
-    const struct ir_parameter *parameter = variable ? NULL : find_parameter(session, name);
-    if (variable)
-        return (struct meaning){&SCHEMA_VARIABLE, variable};
-    return (struct meaning){parameter ? &SCHEMA_PARAMETER : NULL, parameter};
+    const struct ir_parameter *parameter =
+        variable ? NULL : find_parameter(arguments_of(scope->object), name);
+    struct meaning meaning = {.scope = *scope};
+    meaning.scope.reach = UINT32_MAX;
+    if (variable) {
+        meaning.schema = &SCHEMA_VARIABLE;
+        meaning.element = variable;
+    } else if (parameter) {
+        meaning.schema = &SCHEMA_PARAMETER;
+        meaning.element = parameter;
+        meaning.scope.list = NULL;
+    }
+    return meaning;
 }
 
-// Entries that share their variables through an anchor have the same ones.
+static struct meaning meaning_of(const struct session *session, const struct located_scope *scope, str name) {
+    for (const struct located_scope *at = scope; at; at = at->around) {
+        const struct meaning meaning = meaning_here(at, name);
+        if (meaning.element)
+            return meaning;
+    }
+    const struct ir_parameter *parameter = find_parameter(&locate_scene(session)->parameters, name);
+    return (struct meaning){.schema = parameter ? &SCHEMA_PARAMETER : NULL, .element = parameter};
+}
+
+// The parameter of its object that an instance gives a value.
+static struct meaning meaning_given(const struct session *session, const struct located_scope *scope,
+                                    str name) {
+    const struct ir_object *object =
+        scope->list && scope->list->child == &SCHEMA_INSTANCE ? locate_shown(session, scope->entry) : NULL;
+    // An object in place takes no values.
+    const struct located_scope inside = {.reach = UINT32_MAX,
+                                         .object = object && object->name.len ? object : NULL};
+    return meaning_here(&inside, name);
+}
+
+// Entries that share their variables through an anchor have the same ones, objects their parameters.
 static bool is_same(const struct session *session, struct meaning meaning, const struct located_name *name) {
-    return meaning.schema == name->schema &&
+    return meaning.element && meaning.schema == name->schema &&
            (meaning.element == name->element ||
-            (meaning.schema == &SCHEMA_VARIABLE &&
-             span_equal(locate_name_place(session, meaning.schema, meaning.element), name->definition)));
+            span_equal(locate_name_place(session, meaning.schema, meaning.element), name->definition));
 }
 
 // ---- the name at a place
@@ -158,21 +193,35 @@ static void search_word(void *context, span word) {
         search->word = word;
 }
 
+static bool take_meaning(struct meaning meaning, span here, struct located_name *out) {
+    out->schema = meaning.schema;
+    out->element = meaning.element;
+    out->scope = meaning.scope;
+    out->here = here;
+    return meaning.element != NULL;
+}
+
 bool locate_word(const struct session *session, const struct located *at, struct arena *arena,
                  struct located_name *out) {
     struct word_search search = {at->offset, SPAN_NONE};
-    if (!at->schema || !at->row || !at->in_value || !locate_scene(session))
+    struct located_scope scope;
+    struct meaning meaning = {0};
+    if (!at->schema || !locate_scene(session))
+        return false;
+    if (at->schema == &SCHEMA_WITH &&
+        span_equal(at->at, locate_name_place(session, at->schema, at->element))) {
+        scope = locate_scope(session, at->element, arena);
+        meaning = meaning_given(session, &scope, ir_walk_key(at->schema, at->element));
+        return take_meaning(meaning, at->at, out);
+    }
+    if (!at->row || !at->in_value)
         return false;
     each_name(session, at->schema, at->element, search_word, &search);
     if (span_is_none(search.word) || search.word.source != at->at.source)
         return false;
-    out->scope = locate_scope(session, at->element, arena);
-    const struct meaning meaning =
-        meaning_of(session, &out->scope, source_text(&session->sources, search.word));
-    out->schema = meaning.schema;
-    out->element = meaning.element;
-    out->here = search.word;
-    return meaning.element != NULL;
+    scope = locate_scope(session, at->element, arena);
+    meaning = meaning_of(session, &scope, source_text(&session->sources, search.word));
+    return take_meaning(meaning, search.word, out);
 }
 
 // ---- its uses
@@ -190,22 +239,27 @@ struct use_search {
     struct spans others;               // the same name, with another meaning
 };
 
+static void note_use(struct use_search *search, struct meaning meaning, span place) {
+    if (is_same(search->session, meaning, search->name))
+        *ARENA_PUSH(search->arena, &search->name->uses) = place;
+    else if (meaning.element)
+        *ARENA_PUSH(search->arena, &search->others) = place;
+}
+
 static void search_use(void *context, span word) {
     struct use_search *search = context;
     const str text = source_text(&search->session->sources, word);
-    if (!str_equal(text, search->name->name))
-        return;
-    const struct meaning meaning = meaning_of(search->session, search->scope, text);
-    if (is_same(search->session, meaning, search->name))
-        *ARENA_PUSH(search->arena, &search->name->uses) = word;
-    else if (meaning.element)
-        *ARENA_PUSH(search->arena, &search->others) = word;
+    if (str_equal(text, search->name->name))
+        note_use(search, meaning_of(search->session, search->scope, text), word);
 }
 
 static void search_uses(void *context, const struct schema_element *schema, const void *element,
                         const struct located_scope *scope) {
     struct use_search *search = context;
     search->scope = scope;
+    if (schema == &SCHEMA_WITH && str_equal(ir_walk_key(schema, element), search->name->name))
+        note_use(search, meaning_given(search->session, scope, search->name->name),
+                 locate_name_place(search->session, schema, element));
     each_name(search->session, schema, element, search_use, search);
 }
 
@@ -238,54 +292,98 @@ struct conflict_search {
     const struct located_name *name;
     str text; // the new name
     const struct located_scope *scope;
-    const char *found;
+    const char *in_the_way; // a variable or parameter
+    const char *captured;   // an expression that would mean something else
 };
+
+static bool is_argument(const struct conflict_search *search) {
+    return locate_is_argument(search->name->schema, &search->name->scope);
+}
+
+// Whether the name is one of those that an entry or object adds.
+static bool is_of(const struct conflict_search *search, const struct located_scope *scope) {
+    return is_same(search->session, meaning_here(scope, search->name->name), search->name);
+}
+
+// What has the new name already, and is met before the old one, or where that is: from there out it would be
+// hidden.
+static struct meaning meaning_before(const struct conflict_search *search, bool *hides) {
+    for (const struct located_scope *at = search->scope; at; at = at->around) {
+        const struct meaning meaning = meaning_here(at, search->text);
+        *hides = is_of(search, at);
+        if (*hides || meaning.element)
+            return meaning;
+    }
+    return (struct meaning){0};
+}
 
 static void search_captured(void *context, span word) {
     struct conflict_search *search = context;
-    const struct session *session = search->session;
-    const str text = source_text(&session->sources, word);
-    if (search->name->schema == &SCHEMA_VARIABLE) {
-        const struct ir_variable *own = find_variable(search->scope, search->name->name);
-        if (own && str_equal(text, search->text) &&
-            is_same(session, (struct meaning){&SCHEMA_VARIABLE, own}, search->name) &&
-            meaning_of(session, search->scope, text).element)
-            search->found = "an expression of this entry uses something else with this name";
-    } else if (str_equal(text, search->name->name) && find_variable(search->scope, search->text) &&
-               is_same(session, meaning_of(session, search->scope, text), search->name)) {
-        search->found = "a variable of an entry that uses it has this name";
+    const str text = source_text(&search->session->sources, word);
+    bool hides = false;
+    if (str_equal(text, search->text)) {
+        meaning_before(search, &hides);
+        if (hides && meaning_of(search->session, search->scope, text).element)
+            search->captured = is_argument(search)
+                                   ? "an expression of this object uses something else with this name"
+                                   : "an expression of this entry uses something else with this name";
+    } else if (str_equal(text, search->name->name) &&
+               is_same(search->session, meaning_of(search->session, search->scope, text), search->name)) {
+        const struct meaning nearer = meaning_before(search, &hides);
+        if (!hides && nearer.element)
+            search->captured = nearer.schema == &SCHEMA_VARIABLE
+                                   ? "a variable of an entry that uses it has this name"
+                                   : "a parameter of an object that uses it has this name";
     }
 }
 
-// A variable beside those of the entry, or in the same file as the parameter.
-static bool is_in_the_way(const struct conflict_search *search, const struct ir_variable *other,
-                          const struct located_scope *scope) {
-    if (!str_equal(other->name, search->text))
-        return false;
-    if (search->name->schema == &SCHEMA_PARAMETER)
-        return locate_name_place(search->session, &SCHEMA_VARIABLE, other).source ==
-               search->name->definition.source;
-    const struct located_scope whole = {scope->list, scope->entry, scope->index, UINT32_MAX};
-    const struct ir_variable *own = find_variable(&whole, search->name->name);
-    return own && is_same(search->session, (struct meaning){&SCHEMA_VARIABLE, own}, search->name);
+// Whether a variable, or a parameter of an object, with the new name is where a variable or parameter of an
+// object cannot have it too.
+static const char *in_the_way(const struct conflict_search *search, struct meaning other) {
+    for (const struct located_scope *at = &other.scope; at; at = at->around)
+        if (is_of(search, at) && at != &other.scope)
+            return "something in place in it has this name";
+        else if (is_of(search, at))
+            return other.schema != search->name->schema ? "something in reach has this name"
+                   : is_argument(search)                ? "another parameter of this object has this name"
+                                                        : "another variable of this entry has this name";
+    for (const struct located_scope *at = &search->name->scope; at; at = at->around)
+        if (meaning_here(at, search->text).element == other.element)
+            return "something around it has this name";
+    return NULL;
 }
 
 static void search_conflict(void *context, const struct schema_element *schema, const void *element,
                             const struct located_scope *scope) {
     struct conflict_search *search = context;
+    const bool is_scenes = search->name->schema == &SCHEMA_PARAMETER && !is_argument(search);
     search->scope = scope;
-    if (schema == &SCHEMA_VARIABLE && is_in_the_way(search, element, scope))
-        search->found = search->name->schema == &SCHEMA_VARIABLE
-                            ? "another variable of this entry has this name"
-                            : "a variable of this file has this name";
-    if (!search->found)
+    if ((schema == &SCHEMA_VARIABLE || locate_is_argument(schema, scope)) &&
+        str_equal(ir_walk_key(schema, element), search->text)) {
+        struct meaning other = {schema, element, *scope};
+        other.scope.reach = UINT32_MAX;
+        if (!is_scenes)
+            search->in_the_way = in_the_way(search, other);
+        else if (schema == &SCHEMA_VARIABLE && // an object's parameter may hide the scene's
+                 locate_name_place(search->session, schema, element).source ==
+                     search->name->definition.source)
+            search->in_the_way = "a variable of this file has this name";
+    }
+    if (!search->in_the_way && !search->captured)
         each_name(search->session, schema, element, search_captured, search);
+}
+
+static void search_first_conflict(void *context, const struct schema_element *schema, const void *element,
+                                  const struct located_scope *scope) {
+    const struct conflict_search *search = context;
+    if (!search->in_the_way)
+        search_conflict(context, schema, element, scope);
 }
 
 const char *locate_word_conflict(const struct session *session, struct arena *arena,
                                  const struct located_name *name, str text) {
     struct conflict_search search = {.session = session, .name = name, .text = text};
-    const struct ir_parameter *parameter = find_parameter(session, text);
+    const struct ir_parameter *parameter = find_parameter(&locate_scene(session)->parameters, text);
     if (str_equal(name->name, text))
         return NULL;
     if (name->schema == &SCHEMA_VARIABLE && parameter &&
@@ -293,6 +391,6 @@ const char *locate_word_conflict(const struct session *session, struct arena *ar
         return "a parameter of this file has this name";
     if (name->is_shared)
         return "this text stands for other entries too, through an anchor, where the name is another's";
-    locate_walk_scoped(session, arena, search_conflict, &search);
-    return search.found;
+    locate_walk_scoped(session, arena, search_first_conflict, &search);
+    return search.in_the_way ? search.in_the_way : search.captured;
 }

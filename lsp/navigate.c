@@ -5,6 +5,7 @@
 #include "core/strbuf.h"
 #include "grammar/emit/explain.h"
 #include "grammar/ir_formula.h"
+#include "grammar/ir_values.h"
 #include "grammar/ir_walk.h"
 
 #include <string.h>
@@ -172,9 +173,10 @@ json_t *server_prepare_rename(const struct request *request) {
 }
 
 // Whether something else of the same kind has the name.
-static bool is_taken(const struct session *session, const struct schema_element *schema, str name) {
+static bool is_taken(const struct session *session, const struct located_name *renamed, str name) {
+    const struct schema_element *schema = renamed->schema;
     const struct schema_row *pool = ir_walk_pool(schema);
-    if (!pool)
+    if (!pool || locate_is_argument(schema, &renamed->scope)) // which may hide a parameter of the scene
         return false;
     struct ir_any_list list = ir_walk_list(pool, locate_scene(session));
     for (uint32_t i = 0; i < list.count; i++)
@@ -208,7 +210,7 @@ json_t *server_rename(const struct request *request) {
     request->server->refusal = refusal_of_word(request, &name, text);
     if (request->server->refusal)
         return NULL;
-    if (!str_equal(str_from(text), name.name) && is_taken(request->session, name.schema, str_from(text))) {
+    if (!str_equal(str_from(text), name.name) && is_taken(request->session, &name, str_from(text))) {
         request->server->refusal = "another one already has this name";
         return NULL;
     }
@@ -251,13 +253,52 @@ static void add_variable(const struct request *request, const struct located_nam
     strbuf_finish(&values);
 }
 
+// The own value of a parameter of an object, as written.
+static str own_value(const struct request *request, const struct ir_parameter *parameter) {
+    const bool is_many = ir_values_count(parameter->value) > 1;
+    return arena_format(request->arena, is_many ? "[%.*s]" : "%.*s", STR_ARG(parameter->value));
+}
+
+// Whether what was printed of a value in instances is the value that is written.
+static bool is_value(str printed, str own) {
+    return str_starts_with(printed, own) &&
+           (printed.len == own.len || str_starts_with(str_slice(printed, own.len, printed.len), STR(" in ")));
+}
+
+static void add_given(const struct request *request, const struct located_name *name, struct strbuf *out) {
+    struct strbuf values;
+    strbuf_init(&values);
+    if (locate_print_argument(request->session, &name->scope, name->element, request->arena, &values) &&
+        !is_value(strbuf_view(&values), own_value(request, name->element)))
+        strbuf_format(out, ", %.*s", STR_ARG(strbuf_view(&values)));
+    strbuf_finish(&values);
+}
+
+// ", with 1 light, 3 boxes; 12 instances show it"
+static void add_object(const struct request *request, const struct ir_object *object, struct strbuf *out) {
+    const char *before = ", with";
+    for (uint32_t i = 0; i < SCHEMA_OBJECT.row_count; i++) {
+        const struct schema_row *row = &SCHEMA_OBJECT.rows[i];
+        const uint32_t count = ir_walk_list(row, object).count;
+        if (count == 0)
+            continue;
+        strbuf_format(out, "%s %u %s", before, count, count == 1 ? row->child->name : schema_yaml_key(row));
+        before = ",";
+    }
+    const uint32_t shown = locate_instances(request->session, object, request->arena);
+    if (shown || !request->session->sink.errors)
+        strbuf_format(out, shown == 1 ? "; %u instance shows it" : "; %u instances show it", shown);
+}
+
 static void add_definition(const struct request *request, const struct located *at, struct strbuf *out) {
     struct session *session = request->session;
     struct located_name name;
     if (!name_at(request, at, &name))
         return;
     const bool is_variable = name.schema == &SCHEMA_VARIABLE, is_parameter = name.schema == &SCHEMA_PARAMETER;
-    if (!at->in_value && !is_variable && !is_parameter) // it is there
+    const bool is_argument = locate_is_argument(name.schema, &name.scope),
+               is_object = name.schema == &SCHEMA_OBJECT;
+    if (!at->in_value && !is_variable && !is_parameter && !is_object) // it is there
         return;
     str text = source_text(&session->sources, name.definition);
     // The whole element, from the place of its name.
@@ -268,13 +309,19 @@ static void add_definition(const struct request *request, const struct located *
     text = position_clip(text, SNIPPET_BYTES);
     struct source_place where = source_locate(&session->sources, name.definition);
     strbuf_format(out, "%s '%.*s'", name.schema->name, STR_ARG(name.name));
-    if (is_parameter)
+    if (is_argument)
+        strbuf_format(out, " = %.*s,", STR_ARG(own_value(request, name.element)));
+    else if (is_parameter)
         add_parameter(locate_scene(session), name.element, out);
     if (is_variable)
         add_variable(request, &name, out);
     strbuf_format(out, " of %.*s:%u", STR_ARG(path_base(where.path)), where.line);
     if (is_variable)
         add_copies(request, &name.scope, ", which makes ", out);
+    if (is_argument)
+        add_given(request, &name, out);
+    if (is_object)
+        add_object(request, name.element, out);
     strbuf_cstr(out, "\n\n");
     if (request->server->has_markdown)
         markdown_code(text, ir_origin_is_xml(&session->origin, name.definition.source) ? "xml" : "yaml", out);
@@ -283,21 +330,33 @@ static void add_definition(const struct request *request, const struct located *
     strbuf_char(out, '\n');
 }
 
+// Appends what the value of something with a name comes to: of a variable, of a parameter of an object, of
+// `with`.
+static bool print_named(const struct request *request, const struct located *at,
+                        const struct located_scope *scope, struct strbuf *out) {
+    const struct session *session = request->session;
+    if (at->row->key)
+        return false;
+    if (at->schema == &SCHEMA_VARIABLE)
+        locate_print_variable(session, scope, at->element, out);
+    else if (at->schema == &SCHEMA_WITH)
+        return locate_print_given(session, scope, at->element, request->arena, out);
+    else if (locate_is_argument(at->schema, scope) && schema_has_values(at->row))
+        return locate_print_argument(session, scope, at->element, request->arena, out);
+    return out->len > 0;
+}
+
 // What an expression has come to, and what `for` and `if` have.
 static void add_value(const struct request *request, const struct located *at, struct strbuf *out) {
     struct strbuf value;
-    struct located_scope scope = {0};
+    const struct located_scope scope = locate_scope(request->session, at->element, request->arena);
     strbuf_init(&value);
-    if (locate_is_of_copies(at->row) || at->schema == &SCHEMA_VARIABLE)
-        scope = locate_scope(request->session, at->element, request->arena);
     if (locate_is_of_copies(at->row)) {
         add_copies(request, &scope, "makes ", out);
         strbuf_cstr(out, "\n\n");
-    } else if (at->schema == &SCHEMA_VARIABLE && !at->row->key) {
-        locate_print_variable(request->session, &scope, at->element, &value);
-        if (value.len)
-            strbuf_format(out, "%.*s = %.*s\n\n", STR_ARG(ir_walk_key(at->schema, at->element)),
-                          STR_ARG(strbuf_view(&value)));
+    } else if (print_named(request, at, &scope, &value)) {
+        strbuf_format(out, "%.*s = %.*s\n\n", STR_ARG(ir_walk_key(at->schema, at->element)),
+                      STR_ARG(strbuf_view(&value)));
     } else if (locate_print_value(request->session, at, request->arena, &value)) {
         strbuf_format(out, "%.*s\n\n", STR_ARG(strbuf_view(&value)));
     }
@@ -361,8 +420,13 @@ static str symbol_name(struct arena *arena, const struct schema_element *schema,
     str key = ir_walk_key(schema, element);
     if (key.len)
         return key;
-    // List entries differ by the file that they name, else by their place in the list.
+    // List entries differ by the file or object that they name, else by their place in the list.
     for (uint32_t i = 0; i < schema->row_count; i++) {
+        if (schema->rows[i].kind == SCHEMA_REFERENCE && schema->rows[i].child == &SCHEMA_OBJECT) {
+            const struct ir_reference *object = schema_field_const(&schema->rows[i], element);
+            if (object->name.len)
+                return arena_format(arena, "%s %.*s", schema->name, STR_ARG(object->name));
+        }
         const str *text = ir_walk_path(&schema->rows[i], element);
         if (text && text->len)
             return arena_format(arena, "%s %.*s", schema->name, STR_ARG(path_base(*text)));
@@ -380,11 +444,16 @@ static void add_symbol(struct outline *outline, json_t *list, const struct schem
 
 static void add_symbols(struct outline *outline, json_t *list, const struct schema_element *schema,
                         const void *element) {
+    const struct ir_scene *scene = locate_scene(outline->request->session);
     for (uint32_t i = 0; i < schema->row_count; i++) {
         const struct schema_row *row = &schema->rows[i];
         struct ir_any_list items = ir_walk_list(row, element);
         if (row->kind == SCHEMA_ELEMENT && ir_walk_written(schema, i, element))
             add_symbol(outline, list, row->child, schema_field_const(row, element), -1);
+        if (row->child == &SCHEMA_OBJECT && row->kind == SCHEMA_REFERENCE &&
+            ir_walk_is_inline(scene, row, schema_field_const(row, element)))
+            add_symbol(outline, list, row->child,
+                       ir_walk_referent(scene, row, schema_field_const(row, element)), -1);
         for (uint32_t k = 0; k < items.count; k++) {
             const void *item = ir_walk_item(row, items, k);
             if (!ir_walk_is_anonymous(row->child, item))

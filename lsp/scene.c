@@ -29,6 +29,7 @@ static void destroy(struct lsp_scene *scene) {
     lsp_scene_unload(scene);
     lsp_scene_forget_files(scene);
     json_decref(scene->names);
+    json_decref(scene->arguments);
     arena_finish(&scene->arena);
     free(scene);
 }

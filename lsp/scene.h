@@ -26,7 +26,8 @@ struct lsp_scene {
     double lint_seconds; // that these rules took in their last run
     str *files;          // canonical, of the main file and its includes, from the last load that got that far
     uint32_t file_count;
-    json_t *names; // by element: its names when the text last had no syntax errors
+    json_t *names;     // by element: its names when the text last had no syntax errors
+    json_t *arguments; // by object, at the same time: its parameters' names, values and descriptions
 };
 
 struct scenes {

@@ -1,8 +1,12 @@
 // Keeps the scenes up to date with the open documents: loads them, and decides which are needed.
 #include "grammar/schema.h"
 #include "lsp/locate.h"
+#include "lsp/position.h"
 #include "lsp/scene.h"
 
+#include "core/strbuf.h"
+#include "grammar/ir.h"
+#include "grammar/ir_values.h"
 #include "grammar/ir_walk.h"
 #include "load/check.h"
 
@@ -24,12 +28,37 @@ static bool has_syntax_error(const struct session *session) {
     return false;
 }
 
+// What instances may give each object.
+static json_t *list_arguments(const struct ir_objects *objects) {
+    json_t *all = json_object();
+    for (uint32_t i = 0; i < objects->count; i++) {
+        const struct ir_object *object = &objects->items[i];
+        json_t *list = json_array();
+        for (uint32_t k = 0; k < object->parameters.count; k++) {
+            const struct ir_parameter *p = &object->parameters.items[k];
+            struct strbuf value;
+            strbuf_init(&value);
+            ir_values_yaml(&value, p->value, false);
+            json_array_append_new(list, json_pack("{s:o, s:o, s:o}", "name", position_string(p->name),
+                                                  "value", position_string(strbuf_view(&value)), "doc",
+                                                  position_string(p->description)));
+            strbuf_finish(&value);
+        }
+        json_t *name = position_string(object->name);
+        json_object_set_new(all, json_string_value(name), list);
+        json_decref(name);
+    }
+    return all;
+}
+
 // Text is seldom complete while the user types; names that it had a moment ago are still the likely ones.
 static void note_names(struct lsp_scene *scene) {
     if (!scene->session.scene || has_syntax_error(&scene->session))
         return;
     json_decref(scene->names);
+    json_decref(scene->arguments);
     scene->names = json_object();
+    scene->arguments = list_arguments(&locate_scene(&scene->session)->objects);
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
         const struct schema_row *row = &SCHEMA_SCENE.rows[i];
         struct ir_any_list list = ir_walk_list(row, locate_scene(&scene->session));

@@ -43,6 +43,14 @@ static const char *const PIECES[] = {
     "spheres:\n  - {center: [0, 0, 0], radius: 1, material: glass}\n",
     "  - {centre: [0, 0], radius: -1, material: glas}\n",
     "  - {for: {i: 3, p: [[0, 0, i], [1, i, 0]]}, if: i != 1, center: p, radius: 0.1 + i}\n",
+    "objects: {a: {parameters: {h: 1, k: h}, boxes: [{for: {i: h}, center: [i, k, 0], size: h}]}, b: "
+    "{instances: "
+    "[{object: a, with: {h: 2}}]}}\n",
+    "objects:\n  a:\n    parameters: {h: 2}\n    spheres:\n      - {center: [0, h, 0], radius: h}\n    "
+    "instances:\n",
+    "instances:\n  - {for: {i: 3}, object: a, with: {h: i + 1}, translation: [i, 0, 0]}\n  - object: "
+    "{parameters: {w: 1}, "
+    "instances: [{object: b, translation: [w, 0, 0]}]}\n    with:\n      h: 1\n",
     "models: [{mesh: tri.obj, material_map: {red: glass}}]\n",
     "background: {image: nothing.png}\n",
     "description: \"\xF0\x9F\x94\xB7 caf\xC3\xA9\"  # glint: allow W407\n",
@@ -59,6 +67,10 @@ static const char *const PIECES[] = {
     "<Sphere radius=\"1\" material=\"glass\"><Center x=\"0\" y=\"&quot;\" z=\"0\"/></Sphere>",
     "<Sphere radius=\"1 + i\" if=\"i &lt; 2\"><For name=\"i\" count=\"3\"/><Center x=\"i\" y=\"0\" "
     "z=\"0\"/></Sphere>",
+    "<Object name=\"a\"><Parameter name=\"h\" value=\"1\"/><Sphere radius=\"h\"><Center x=\"h\" y=\"0\" "
+    "z=\"0\"/></Sphere>",
+    "</Object>",
+    "<Instance object=\"a\"><For name=\"i\" count=\"2\"/><With name=\"h\" value=\"i\"/></Instance>",
     "</Scene>",
     "<!-- glint: allow W401 -->",
     "limits: {mesh-bytes: x}\n",

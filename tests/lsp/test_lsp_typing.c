@@ -205,6 +205,96 @@ static void completes_variables(void **state) {
         expect_typing(client, &typings[i], (int)i + 2);
 }
 
+#define OBJECTS                                                                                              \
+    "glint: 1\nparameters: {height: 3}\nobjects:\n  chair:\n    parameters: {seat: 0.5, legs: {value: 4, "   \
+    "min: 3, "                                                                                               \
+    "description: of one}}\n    spheres: [{radius: seat}]\ninstances:\n  - "
+#define XML_OBJECTS "<Scene glint=\"1\"><Object name=\"chair\"><Parameter name=\"seat\" value=\"0.5\"/>"
+
+// Names of objects, what instances give them, and what is known inside them.
+static const struct typing OF_OBJECTS[] = {
+    {"main.yaml", OBJECTS "{object: |", "chair", "chair", "seat"},
+    {"main.yaml", OBJECTS "object: ch|\n", "chair", "chair", "seat"},
+    {"main.yaml", OBJECTS "{object: chair, with: {|", "seat", "seat: ${1:0.5}", "height"},
+    {"main.yaml", OBJECTS "{object: chair, with: {|}}\n", "legs", "legs: ${1:4}", "sin"},
+    {"main.yaml", OBJECTS "{with: {se|: 2}, object: \"chair\"}\n", "seat", "seat", "height"},
+    {"main.yaml", OBJECTS "{object: chair, with: {seat: 2, |", "legs", "legs: ${1:4}", "seat"},
+    {"main.yaml", OBJECTS "object: chair\n    with:\n      seat: 2\n      |\n", "legs", "legs: ${1:4}",
+     "seat"},
+    {"main.yaml", OBJECTS "with:\n      |\n    object: chair # of wood\n", "seat", "seat: ${1:0.5}",
+     "height"},
+    {"main.yaml", OBJECTS "{object: gone, with: {|", NULL, NULL, "seat"},
+    {"main.yaml", OBJECTS "{object: chair, with: {seat: |", "height", "height", "seat"},
+    {"main.yaml", OBJECTS "{for: {i: 3}, object: chair, with: {seat: 2*|", "i", "i", "seat"},
+    {"main.yaml", OBJECTS "{object: chair, |", "with", "with: {${1:height: 4}}", "radius"},
+    {"main.yaml", OBJECTS "{object: {bo|", "boxes", "boxes: [{$0}]", "object"},
+    {"main.yaml", OBJECTS "{for: {i: 3}, object: {spheres: [{radius: |", "i", "i", "seat"},
+    {"main.yaml",
+     OBJECTS "for: {i: 3}\n    object:\n      parameters: {w: 2}\n      spheres:\n        - for: {k: 2}\n"
+             "          center: [|\n",
+     "i", "i", "seat"},
+    {"main.yaml",
+     OBJECTS "for: {i: 3}\n    object:\n      parameters: {w: 2}\n      spheres:\n        - center: [|\n",
+     "w", "w", "seat"},
+    {"main.yaml", OBJECTS "object:\n      parameters:\n        w: 2\n        v: 3*|\n    for: {i: 3}\n", "i",
+     "i", "v"},
+    {"main.yaml", OBJECTS "object:\n      spheres:\n      - radius: |\n      parameters:\n        w: 2\n",
+     "w", "w", "seat"},
+    {"main.yaml", OBJECTS "{for: {i: 3}, object: {spheres: [{for: {k: |", "i", "i", "k"},
+    {"main.yaml",
+     "glint: 1\nobjects:\n  chair:\n    parameters:\n      back: 3\n    spheres:\n      - {radius: |\n"
+     "  stool: {parameters: {low: 1}}\n",
+     "back", "back", "low"},
+    {"main.yaml", "glint: 1\nobjects: {chair: {parameters: {back: 3}, spheres: [{radius: |", "back", "back",
+     "center"},
+    {"main.yaml", "glint: 1\nobjects:\n  chair:\n    parameters: {back: 3, top: |", "back", "back", "top"},
+    {"main.yaml", "glint: 1\nobjects:\n  chair:\n    c|\n", "cones", "cones:\n  - $0", "mesh"},
+    {"main.yaml", "glint: 1\nobjects:\n  ch|\n", NULL, NULL, "boxes"},
+    {"main.xml", XML_OBJECTS "</Object><Instance object=\"chair\"/></Scene>|", NULL, NULL, "chair"},
+    {"main.xml", XML_OBJECTS "</Object><Instance object=\"|\"/></Scene>", "chair", "chair", "seat"},
+    {"main.xml", XML_OBJECTS "</Object><Instance object=\"chair\"><With name=\"|", "seat", "seat", "height"},
+    {"main.xml",
+     XML_OBJECTS "<Parameter name=\"legs\" value=\"4\"/></Object><Instance object=\"chair\"><With "
+                 "name=\"seat\" value=\"1\"/><With name=\"|\"/></Instance></Scene>",
+     "legs", "legs", "seat"},
+    {"main.xml",
+     XML_OBJECTS "</Object><Instance object=\"chair\"><For name=\"i\" count=\"3\"/><With name=\"seat\" "
+                 "value=\"|",
+     "i", "i", "seat"},
+    {"main.xml", XML_OBJECTS "<Sphere radius=\"|", "seat", "seat", "center"},
+    {"main.xml", XML_OBJECTS "<Parameter name=\"top\" value=\"|", "seat", "seat", "top"},
+    {"main.xml",
+     XML_OBJECTS "</Object><Instance><For name=\"i\" count=\"3\"/><Object><Parameter name=\"w\" value=\"2\"/>"
+                 "<Sphere><For name=\"k\" count=\"|",
+     "i", "i", "k"},
+    {"main.xml", XML_OBJECTS "</Object><Instance object=\"chair\"><|", "With",
+     "With name=\"height\" value=\"4\"/>", "Sphere"},
+};
+
+static void completes_objects(void **state) {
+    struct lsp_client *client = *state;
+    initialize_richly(client);
+    client_open(client, "main.yaml", OBJECTS "{object: chair}\n");
+    client_open(client, "main.xml", "<Scene glint=\"1\"/>");
+    for (size_t i = 0; i < sizeof OF_OBJECTS / sizeof *OF_OBJECTS; i++)
+        expect_typing(client, &OF_OBJECTS[i], (int)i + 2);
+}
+
+static void tells_what_parameters_are(void **state) {
+    static const char text[] = OBJECTS "{object: chair, with: {}}\n";
+    struct lsp_client *client = *state;
+    initialize_richly(client);
+    client_open(client, "main.yaml", text);
+    json_t *list =
+        client_request(client, "textDocument/completion", client_at(client, "main.yaml", 7, 27), NULL);
+    const json_t *items = json_object_get(list, "items");
+    assert_int_equal(json_array_size(items), 2);
+    assert_string_equal(client_text(json_array_get(items, 0), "detail"), "0.5");
+    assert_string_equal(client_text(json_array_get(items, 1), "detail"), "4");
+    assert_string_equal(client_text(json_array_get(items, 1), "documentation"), "of one");
+    json_decref(list);
+}
+
 // What an item says beside its name.
 static void expect_detail(struct lsp_client *client, int version, const char *entry, const char *wanted) {
     char text[256];
@@ -326,6 +416,8 @@ int main(int argc, char **argv) {
         cmocka_unit_test_setup_teardown(completes_attributes, start, stop),
         cmocka_unit_test_setup_teardown(completes_expressions, start, stop),
         cmocka_unit_test_setup_teardown(completes_variables, start, stop),
+        cmocka_unit_test_setup_teardown(completes_objects, start, stop),
+        cmocka_unit_test_setup_teardown(tells_what_parameters_are, start, stop),
         cmocka_unit_test_setup_teardown(tells_what_variables_are, start, stop),
         cmocka_unit_test_setup_teardown(completes_attributes_without_snippets, start, stop),
         cmocka_unit_test_setup_teardown(explains_in_markdown, start, stop),
