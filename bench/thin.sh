@@ -42,6 +42,6 @@ fine=$(ball 222 0.0001) coarse=$(ball 60 0.001)
 grid 100 2.2 "$fine" 1 single | figures '10 000 balls of 99 008 triangles, single'
 grid 100 2.2 "$fine" 1 double | figures '10 000 balls of 99 008 triangles, double'
 grid 100 2.2 '{torus: {radius: 0.8, tube: 0.2}, tolerance: 0.000095}' 1 double | figures '10 000 rings, double'
-for scale in 0.02 0.01; do
+for scale in 0.02 0.01 0.004; do
     grid 60 0.4 "$coarse" $scale single | figures "3600 balls of 8424 triangles, radius $scale, single"
 done
