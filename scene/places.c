@@ -184,6 +184,13 @@ static void check_even(const struct scene *scene, struct diag_sink *sink,
         report_uneven(scene, sink, element, index, head);
 }
 
+static bool is_known(const struct ir_instance *ir) {
+    bool known = !ir->head.poisoned && !ir->matrix.head.poisoned;
+    for (uint32_t i = 0; i < ir->matrix.rows.count; i++)
+        known = known && !ir->matrix.rows.items[i].head.poisoned;
+    return known;
+}
+
 void scene_check_places(const struct scene *scene, struct diag_sink *sink) {
     const struct ir_origin *origin = scene->assets->origin;
     if (!scene->places)
@@ -192,7 +199,7 @@ void scene_check_places(const struct scene *scene, struct diag_sink *sink) {
         const struct ir_head *head = &scene->ir->instances.items[i].head;
         const double room = mat3_determinant(scene->places[i].linear);
         const span at = origin ? ir_place_label(origin, head) : SPAN_NONE;
-        if (head->poisoned || (isfinite(room) && fabs(room) >= DBL_MIN) ||
+        if (!is_known(&scene->ir->instances.items[i]) || (isfinite(room) && fabs(room) >= DBL_MIN) ||
             diag_is_repeat(sink, DIAG_FLAT_PLACE, at))
             continue;
         diag_add(sink, DIAG_FLAT_PLACE, at,

@@ -1,7 +1,7 @@
 // Names in reach of expressions, and what is said of an expression that is wrong.
 #include "diag/codes/binding.h"
 #include "diag/diag_expression.h"
-#include "parser/stages/copies.h"
+#include "parser/stages/objects.h"
 
 #include "parser/bind/say.h"
 
@@ -45,9 +45,13 @@ const char *evaluation_help(struct evaluation *e, str name) {
     for (uint32_t i = 0; !e->has_variables_named && i < written->objects.count; i++)
         list_variables(e, &SCHEMA_OBJECT, &written->objects.items[i]);
     e->has_variables_named = true;
-    return str_map_find(&e->variables_named, name)
-               ? "a variable of 'for' is known in its entry, and in what is written in place there"
-               : NULL;
+    if (!str_map_find(&e->variables_named, name))
+        return NULL;
+    if (e->entry && e->entry->in && e->entry->in->ir->name.len)
+        return "an object with a name sees its own parameters, not the variables of its instances: give it a "
+               "parameter, and the "
+               "instance 'with'";
+    return "a variable of 'for' is known in its entry, and in what is written in place there";
 }
 
 bool evaluation_is_three(const struct evaluation *e, str name) {
