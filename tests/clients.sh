@@ -4,8 +4,7 @@ set -eu
 glint=$1
 source=$2
 work=$3
-rm -rf "$work"
-mkdir -p "$work"
+"$source/tools/emptied" "$work"
 cd "$work"
 
 skip() {

@@ -5,7 +5,7 @@
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 folder=${1:-$here/build/editors-root}
-rm -rf "$folder"
+"$here/tools/emptied" "$folder"
 mkdir -p "$folder/root" "$folder/bin"
 cd "$folder"
 suite=trixie

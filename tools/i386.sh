@@ -6,7 +6,7 @@ here=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 folder=${1:-$here/build/i386}
 packages="libc6 linux-libc-dev libgcc-12-dev libgcc-s1 $("$here/tools/setup.sh" check-only --list | grep -e '-dev$') libbrotli-dev" # and what FreeType needs
 
-rm -rf "$folder"
+"$here/tools/emptied" "$folder"
 mkdir -p "$folder/packages"
 cd "$folder"
 suite=bookworm

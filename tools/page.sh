@@ -15,6 +15,6 @@ rm -rf "$new"
 gpu=${GLINT_WEBGPU:-$here/build/webgpu}
 [ -f "$gpu/glint-gpu.wasm" ] || gpu=
 node web/page/build.mjs "$new" "$modules" "$web/glint-lint" "$here" $gpu
-rm -rf "$folder"
+"$here/tools/emptied" "$folder" && rmdir "$folder"
 mv "$new" "$folder"
 web/page/weigh "$folder"

@@ -33,5 +33,5 @@ else
     node "$here/web/site/build.mjs" "$new" "$modules" "$here"
 fi
 node "$here/web/site/check.mjs" "$new" "$modules"
-rm -rf "$folder"
+"$here/tools/emptied" "$folder" && rmdir "$folder"
 mv "$new" "$folder"

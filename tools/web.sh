@@ -11,7 +11,7 @@ for program in emcc dpkg-source cmake ninja; do
         exit 1
     }
 done
-rm -rf "$folder"
+"$here/tools/emptied" "$folder"
 mkdir -p "$folder/sources" "$folder/root"
 cd "$folder"
 suite=bookworm

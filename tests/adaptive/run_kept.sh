@@ -3,8 +3,7 @@
 # Usage: run_kept.sh TEST_CHOICES GLINT FOLDER
 set -eu
 program=$1 glint=$2 folder=$3
-rm -rf "$folder"
-mkdir -p "$folder"
+"${0%/*}/../../tools/emptied" "$folder"
 cd "$folder"
 take() { # FOLDER, options
     mkdir "$1"

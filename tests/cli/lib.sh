@@ -5,9 +5,7 @@ glint=$1
 source=$2
 work=$3
 failed=0
-[ ! -e "$work/.git" ] || { echo "$work is a checkout, and would be emptied" >&2; exit 2; }
-rm -rf "$work"
-mkdir -p "$work"
+"$source/tools/emptied" "$work" || exit 2
 cd "$work" || exit 2
 
 pass() { echo "ok   $1"; }

@@ -6,8 +6,7 @@ set -eu
 glint=$1 source=$2 folder=$3 writer=$4 whole=${5:-}
 models=${GLINT_ASSETS:-$source/../shared/assets}/models
 failed=0
-rm -rf "$folder"
-mkdir -p "$folder"
+"$source/tools/emptied" "$folder"
 cd "$folder"
 
 # What of the two differs; nothing is said of pictures that are the same.

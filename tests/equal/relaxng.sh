@@ -6,8 +6,7 @@ generate=$1
 work=$2
 schema=docs/schema/glint.rng
 command -v xmllint >/dev/null || { echo "skipped: xmllint is not installed"; exit 77; }
-rm -rf "$work"
-mkdir -p "$work"
+tools/emptied "$work"
 
 accepts() { xmllint --noout --relaxng "$schema" "$@" 2>"$work/report"; }
 

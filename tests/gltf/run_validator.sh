@@ -3,8 +3,7 @@
 # files. It is skipped where node or the package is not installed: npm install -g gltf-validator, or NODE_PATH.
 set -eu
 glint=$1 source=$2 work=$3 make_gltf=$4
-rm -rf "$work"
-mkdir -p "$work"
+"$source/tools/emptied" "$work"
 cd "$work"
 command -v node >/dev/null 2>&1 || {
     echo "skipped: node is not installed"

@@ -4,9 +4,7 @@
 # Usage: selftest.sh FOLDER, which is emptied.
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
-[ ! -e "$1/.git" ] || { echo "$1 is a checkout, and would be emptied" >&2; exit 2; }
-rm -rf "$1"
-mkdir -p "$1"
+"$here/../../tools/emptied" "$1"
 file=$1/sample.c
 cat >"$file" <<'END'
 #define CLOSE 0x1p-12 // 3 < 4

@@ -5,7 +5,7 @@
 set -eu
 root=$1 work=$2 cmake=$3 cc=$4
 failures=0
-rm -rf "$work"
+"$root/tools/emptied" "$work"
 mkdir -p "$work/shaders/light"
 cd "$work"
 ln -s "$root/cmake" "$root/tools" .

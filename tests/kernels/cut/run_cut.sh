@@ -7,8 +7,7 @@
 set -eu
 shaders=$1 work=$2 glslang=$3 validate=$4 exact=$5 same=$6
 failures=0 gone=0 number=0
-rm -rf "$work"
-mkdir -p "$work"
+"${0%/*}/../../../tools/emptied" "$work"
 cp -r "$shaders" "$work/cut"
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 cd "$shaders"
