@@ -202,6 +202,8 @@ void bind_fixed(struct bind_context *context, struct bind_frame *frame, uint32_t
 
 // bind_loose.c: values recognised despite a reported mistake are still read, so that their own mistakes show
 // in the same run and names in them are known. Rows touched are poisoned by the caller.
+// Whether a list has numbers where it should have lists of numbers, as a matrix in one line (reported).
+bool bind_flat_numbers(struct bind_context *context, struct bind_subject subject, tree_index list);
 // The entries in a value of the wrong shape, in scratch; replaces the last diagnostic's help if there is a
 // better one than an example (`reported`).
 struct bind_entries bind_loose_entries(struct bind_context *context, const struct schema_row *row,

@@ -176,6 +176,11 @@ static void bind_many(struct bind_context *context, struct bind_frame *frame, ui
         loose_entries(context, frame, row, given.value, true);
         return;
     }
+    if (bind_flat_numbers(context, bind_subject(frame, r), given.value)) {
+        frame->seen |= bind_bit(row);
+        bind_poison(frame, row);
+        return;
+    }
     struct bind_values all = {
         .named = kind == TREE_MAP, .row = row, .at = tree_first(context->tree, given.value)};
     if (r->many == SCHEMA_FIXED)

@@ -223,3 +223,51 @@ bool bind_loose_numbers(struct bind_context *context, struct bind_frame *frame, 
             tree_node(tree, next)->flags |= TREE_BAD;
     return true;
 }
+
+enum {
+    FLAT_NUMBERS_MOST = 16 // that a fix writes
+};
+
+// How many numbers an entry of a list is, if it is that and no more: of a matrix's rows 4, of points 2; else
+// 0.
+static uint32_t numbers_of_entry(const struct schema_row *row) {
+    const int only = row->many == SCHEMA_SEQUENCE ? schema_short_row(row->child) : -1;
+    return only < 0 ? 0 : schema_component_count(row->child->rows[only].kind);
+}
+
+bool bind_flat_numbers(struct bind_context *context, struct bind_subject subject, tree_index list) {
+    const struct tree *tree = context->tree;
+    const uint32_t width = numbers_of_entry(subject.row), count = tree_node(tree, list)->count;
+    str mended = STR("[");
+    uint32_t i = 0;
+    if (width < 2 || count < 2)
+        return false;
+    const enum schema_kind kind = subject.row->child->rows[schema_short_row(subject.row->child)].kind;
+    const bool has_fix = count % width == 0 && count <= FLAT_NUMBERS_MOST;
+    for (tree_index item = tree_first(tree, list); item; item = tree_next(tree, item), i++) {
+        const str text = tree_text(tree, item);
+        double value;
+        const bool is_number = number_parse(text, &value) == NUMBER_OK;
+        // A vector may be one expression.
+        if (bind_kind(context, item) != TREE_SCALAR || bind_is_bad(context, item) ||
+            (kind == SCHEMA_VECTOR && !is_number))
+            return false;
+        if (has_fix)
+            mended = arena_format(context->scratch, "%.*s%s%.*s%s", STR_ARG(mended),
+                                  i % width ? ", "
+                                  : i       ? ", ["
+                                            : "[",
+                                  STR_ARG(text), i % width + 1 == width ? "]" : "");
+    }
+    diag_add(context->sink, DIAG_WRONG_SHAPE, tree_span(tree, list),
+             "%.*s must be a list of lists of %u numbers, not one list of %u numbers",
+             STR_ARG(say_subject(context->scratch, subject)), width, count);
+    if (has_fix) {
+        mended = arena_format(context->scratch, "%.*s]", STR_ARG(mended));
+        diag_help(context->sink, "write %.*s", STR_ARG(mended));
+        diag_fix(context->sink, false, tree_span(tree, list), mended);
+    } else {
+        diag_help(context->sink, "put every %u numbers into brackets of their own", width);
+    }
+    return true;
+}

@@ -55,7 +55,9 @@ static double least_of_entry(struct evaluation *e, const struct copy_entry *entr
             return 0;
         product *= size;
     }
-    const bool keeps_all = !entry->condition;
+    const struct schema_element *schema = entry->row->child;
+    const struct schema_row *condition = &schema->rows[schema_find_row(schema, STR("if"))];
+    const bool keeps_all = !entry->condition && *(const bool *)schema_field_const(condition, entry->memory);
     const double each = keeps_all && entry->object ? entry->object->least : 0;
     const bool is_made = entry->variable_count || entry->in; // what is written in the scene is not counted
     return product * (is_made + each);
