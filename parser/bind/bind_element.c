@@ -106,6 +106,13 @@ static void bind_entries(struct bind_context *context, struct bind_frame *frame,
         bool has_key = values.repeated || values.named;
         if (values.named && !bind_is_bad(context, values.at))
             bind_loose_columns(context, NULL, r, values.at);
+        if (values.named && schema_short_row(r->child) >= 0 &&
+            !bind_is_bad_pair(context, given.value, values.at) &&
+            bind_torn_pair(context, frame, row, given.value, values.at)) {
+            // Its name is known, its value is not.
+            tree_node(context->tree, values.at)->flags &= (uint8_t)~TREE_BAD;
+            tree_node(context->tree, tree_value(context->tree, values.at))->flags |= TREE_BAD;
+        }
         struct bind_given entry = {.comments = tree_comments(context->tree, values.at), .value = values.at};
         if (has_key)
             entry = bind_given_by(context, values.at);

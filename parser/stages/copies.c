@@ -79,7 +79,8 @@ static bool report_over(struct evaluation *e, const struct copy_entry *entry, do
         text = arena_format(scratch, "%.*s, after %llu by other entries", STR_ARG(text),
                             (unsigned long long)e->copying->steps);
     e->copying->is_over = true;
-    reader_limit(sink(e), e->loader->input->limits, LIMIT_COPIES, for_place(e, entry), text.ptr);
+    reader_limit_needs(sink(e), e->loader->input->limits, LIMIT_COPIES, for_place(e, entry), text.ptr,
+                       product > 0 ? product + (double)e->copying->steps : 0);
     return false;
 }
 

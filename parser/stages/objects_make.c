@@ -79,12 +79,13 @@ void objects_check_count(struct evaluation *e) {
         const double least = entry->is_good ? least_of_entry(e, entry) : 0;
         if (least <= (double)limits->value[LIMIT_COPIES])
             continue;
-        reader_limit(e->loader->input->sink, limits, LIMIT_COPIES,
-                     ir_place_label(&e->loader->output->origin, entry->memory),
-                     arena_format(&e->loader->scratch,
-                                  least <= 0x1p53 ? "this makes %.0f things" : "this makes %.3g things",
-                                  least)
-                         .ptr);
+        const str what =
+            arena_format(&e->loader->scratch,
+                         least <= 0x1p53 ? "this makes %.0f things, the instances and what is in them"
+                                         : "this makes %.3g things, the instances and what is in them",
+                         least);
+        reader_limit_needs(e->loader->input->sink, limits, LIMIT_COPIES,
+                           ir_place_label(&e->loader->output->origin, entry->memory), what.ptr, least);
         e->copying->is_over = true;
         return;
     }

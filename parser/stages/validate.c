@@ -394,6 +394,14 @@ static void check_model(const struct rules *rules, const struct ir_model *model)
     check_scale(rules, &SCHEMA_MODEL, model, model->name, model->scale);
 }
 
+static void help_four_rows(const struct rules *rules, const struct ir_quad *fourth) {
+    const bool is_last = fourth->x == 0 && fourth->y == 0 && fourth->z == 0 && fourth->t == 1;
+    diag_help(rules->sink,
+              is_last ? "leave out the fourth, 0, 0, 0, 1"
+                      : "where the object is belongs in the last column: if it is in the fourth row, "
+                        "exchange rows and columns, and leave out the fourth row, then 0, 0, 0, 1");
+}
+
 static void check_instance(const struct rules *rules, const struct ir_instance *instance) {
     const struct schema_element *schema = &SCHEMA_INSTANCE;
     const uint32_t rows = instance->matrix.rows.count;
@@ -405,7 +413,7 @@ static void check_instance(const struct rules *rules, const struct ir_instance *
         diag_add(rules->sink, DIAG_MATRIX, at, "the matrix has %u row%s; it needs 3, for x, y and z", rows,
                  rows == 1 ? "" : "s");
         if (rows == 4)
-            diag_help(rules->sink, "the fourth, which is 0, 0, 0, 1, is left out");
+            help_four_rows(rules, &instance->matrix.rows.items[3].numbers);
     }
     static const char *const others[] = {"scale", "rotation", "translation"};
     for (int i = 0; i < 3; i++) {

@@ -150,12 +150,19 @@ str reader_clip(str text) {
     return str_slice(text, 0, end);
 }
 
-void reader_limit(struct diag_sink *sink, const struct limits *limits, enum limit which, span at,
-                  const char *what) {
+void reader_limit_needs(struct diag_sink *sink, const struct limits *limits, enum limit which, span at,
+                        const char *what, double needed) {
     const struct limit_info *info = limit_info(which);
-    uint64_t now = limits->value[which];
+    const uint64_t now = limits->value[which];
     uint64_t more = now > info->greatest / 2 ? info->greatest : now * 2;
+    if (needed > (double)more)
+        more = needed <= (double)info->greatest ? (uint64_t)needed : now;
     diag_add(sink, DIAG_LIMIT, at, "%s: more than %" PRIu64 " (limit %s)", what, now, info->name);
     if (more > now)
         diag_help(sink, "if this is intended, raise the limit: --limit %s=%" PRIu64, info->name, more);
+}
+
+void reader_limit(struct diag_sink *sink, const struct limits *limits, enum limit which, span at,
+                  const char *what) {
+    reader_limit_needs(sink, limits, which, at, what, 0);
 }

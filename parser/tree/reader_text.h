@@ -53,5 +53,9 @@ str reader_clip(str text);
 // E501 at `at`: "<what> (more than N); raise it with ...".
 void reader_limit(struct diag_sink *sink, const struct limits *limits, enum limit which, span at,
                   const char *what);
+// The same where it is known what is `needed`: the help gives at least that, or none where no limit is so
+// great.
+void reader_limit_needs(struct diag_sink *sink, const struct limits *limits, enum limit which, span at,
+                        const char *what, double needed);
 
 #endif

@@ -106,25 +106,25 @@ static void test_links_are_exchanged_meanwhile(void **state) {
     struct output output;
     str contents;
     unsigned counts[2] = {0}, written = 0;
+    bool is_inside = true;
     files_init(&files, &arena);
     assert_int_equal(files_add_root(&files, str_from(scratch_path(&scratch, "in"))), FILE_OK);
     const pid_t child = exchange(scratch_path(&scratch, "in/real"), scratch_path(&scratch, "in/link"));
     assert_true(child > 0);
-    for (int i = 0; i < READS; i++) {
+    for (int i = 0; i < READS || (i < 100 * READS && !(counts[0] && counts[1])); i++) {
         const enum file_status status =
             files_read(&files, str_from(scratch_path(&scratch, "in/real/file")), 100, &into, &contents);
         counts[status == FILE_OK]++;
-        if (status == FILE_OK && !str_equal(contents, STR("inside")))
-            break;
+        is_inside = is_inside && (status != FILE_OK || str_equal(contents, STR("inside")));
     }
-    for (int i = 0; i < READS / 10; i++)
+    for (int i = 0; i < READS / 10 || (i < 10 * READS && !written); i++)
         if (files_write(&files, str_from(scratch_path(&scratch, "in/real/new")), &output) == FILE_OK) {
             output_write(&output, "new", 3);
             written += output_commit(&output);
         }
     kill(child, SIGKILL);
     waitpid(child, NULL, 0);
-    assert_int_equal(counts[0] + counts[1], READS);
+    assert_true(is_inside);
     assert_true(counts[0] > 0 && counts[1] > 0 && written > 0); // both were met
     assert_false(scratch_holds(&scratch, "out/new", "new"));
     assert_int_equal(scratch_count(&scratch, "out"), 1);
