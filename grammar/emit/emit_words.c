@@ -86,9 +86,11 @@ void emit_type_words(const struct schema_row *row, struct strbuf *out) {
         }
         strbuf_cstr(out, row->child->name);
         break;
-    case SCHEMA_REFERENCE:
-        strbuf_format(out, "name of a %s, or a %s", row->child->name, row->child->name);
+    case SCHEMA_REFERENCE: {
+        const char *a = strchr("aeio", row->child->name[0]) ? "an" : "a";
+        strbuf_format(out, "name of %s %s, or %s %s", a, row->child->name, a, row->child->name);
         break;
+    }
     case SCHEMA_LIST:
         strbuf_format(out, row->many == SCHEMA_NAMED_MAP ? "%s by %s" : "list of %s", schema_yaml_key(row),
                       row->many == SCHEMA_NAMED_MAP ? row->child->rows[schema_key_row(row->child)].name

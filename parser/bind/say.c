@@ -156,9 +156,10 @@ str say_expected(struct arena *arena, const struct schema_row *row) {
         return STR("a colour (three numbers r, g, b, one number for all three, or #rrggbb)");
     case SCHEMA_WEIGHTS:
         return STR("four weights (diffuse, specular, reflection, refraction)");
-    case SCHEMA_REFERENCE:
-        return arena_format(arena, "the name of a %s, or a %s of its own", row->child->name,
-                            row->child->name);
+    case SCHEMA_REFERENCE: {
+        const str one = say_article(arena, row->child->name);
+        return arena_format(arena, "the name of %.*s, or %.*s of its own", STR_ARG(one), STR_ARG(one));
+    }
     case SCHEMA_ELEMENT:
     case SCHEMA_LIST:
         return expected_element(arena, row);
