@@ -184,8 +184,10 @@ static void check_even(const struct scene *scene, struct diag_sink *sink,
         report_uneven(scene, sink, element, index, head);
 }
 
+// A scale of 0 is a mistake of its own (E405).
 static bool is_known(const struct ir_instance *ir) {
-    bool known = !ir->head.poisoned && !ir->matrix.head.poisoned;
+    bool known = !ir->head.poisoned && !ir->matrix.head.poisoned && ir->scale.x != 0 && ir->scale.y != 0 &&
+                 ir->scale.z != 0;
     for (uint32_t i = 0; i < ir->matrix.rows.count; i++)
         known = known && !ir->matrix.rows.items[i].head.poisoned;
     return known;

@@ -202,8 +202,6 @@ void bind_fixed(struct bind_context *context, struct bind_frame *frame, uint32_t
 
 // bind_loose.c: values recognised despite a reported mistake are still read, so that their own mistakes show
 // in the same run and names in them are known. Rows touched are poisoned by the caller.
-// Whether a list has numbers where it should have lists of numbers, as a matrix in one line (reported).
-bool bind_flat_numbers(struct bind_context *context, struct bind_subject subject, tree_index list);
 // The entries in a value of the wrong shape, in scratch; replaces the last diagnostic's help if there is a
 // better one than an example (`reported`).
 struct bind_entries bind_loose_entries(struct bind_context *context, const struct schema_row *row,
@@ -216,6 +214,8 @@ void bind_loose_columns(struct bind_context *context, const struct bind_frame *o
 // it is reported with the meant list, and the keys are marked as known.
 bool bind_loose_numbers(struct bind_context *context, struct bind_frame *frame, uint32_t row, tree_index map,
                         tree_index key);
+// Whether a list has numbers where it should have lists of numbers, as a matrix in one line (reported).
+bool bind_flat_numbers(struct bind_context *context, struct bind_subject subject, tree_index list);
 
 // bind_entry.c
 // An entry at its defaults, in scratch.

@@ -101,3 +101,13 @@ same() {
         diff "$2" "$3" | head -20
     fi
 }
+
+# same_twins SCENE PICTURE: the scene's twins in XML, which stays as twin.xml, and JSON have its meaning and its picture.
+same_twins() {
+    for other in twin.xml twin.json; do
+        expect "converted, $other" 0 - '' "$glint" convert "$1" "$other"
+        expect "drawn" 0 - '' "$glint" render "$other" -q --device reference -o other.pfm
+        expect "the same picture, $other" 0 - - cmp other.pfm "$2"
+    done
+    expect "no difference" 0 - '' "$glint" diff "$1" twin.xml
+}
