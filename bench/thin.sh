@@ -1,8 +1,9 @@
 #!/bin/sh
 # Many models of meshes with poles, whose lowest triangles rounding may leave without area: bytes on the device, processor time and
-# memory of `glint inspect`. Usage: bench/thin.sh [GLINT]
+# memory of `glint inspect`. By build/release/glint, or by $GLINT.
 set -eu
-glint=${1:-build/release/glint}
+cd "$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)"
+glint=${GLINT:-$PWD/build/release/glint}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -16,7 +17,7 @@ ball() {
 # figures NAME: of the scene on standard input.
 figures() {
     cat >"$work/scene.yaml"
-    /usr/bin/time -o "$work/time" -f '%U %M' "$glint" inspect "$work/scene.yaml" --format json >"$work/report" 2>"$work/errors" || {
+    command time -o "$work/time" -f '%U %M' "$glint" inspect "$work/scene.yaml" --format json >"$work/report" 2>"$work/errors" || {
         cat "$work/errors"
         exit 1
     }

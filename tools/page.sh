@@ -15,6 +15,7 @@ rm -rf "$new"
 gpu=${GLINT_WEBGPU:-$here/build/webgpu}
 [ -f "$gpu/glint-gpu.wasm" ] || gpu=
 node web/page/build.mjs "$new" "$modules" "$web/glint-lint" "$here" $gpu
-"$here/tools/emptied" "$folder" && rmdir "$folder"
+"$here/tools/emptied" "$folder"
+rmdir "$folder"
 mv "$new" "$folder"
 web/page/weigh "$folder"

@@ -33,5 +33,6 @@ else
     node "$here/web/site/build.mjs" "$new" "$modules" "$here"
 fi
 node "$here/web/site/check.mjs" "$new" "$modules"
-"$here/tools/emptied" "$folder" && rmdir "$folder"
+"$here/tools/emptied" "$folder"
+rmdir "$folder"
 mv "$new" "$folder"

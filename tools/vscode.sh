@@ -11,5 +11,6 @@ modules=${GLINT_VSCODE_MODULES:-$here/build/vscode-root}
 . "$here/tools/web_parts.sh"
 rm -rf "$folder.new"
 node web/vscode/build.mjs "$folder.new" "$modules" "$web/glint-lint" "$here"
-"$here/tools/emptied" "$folder" && rmdir "$folder"
+"$here/tools/emptied" "$folder"
+rmdir "$folder"
 mv "$folder.new" "$folder"

@@ -50,5 +50,6 @@ for kernel in trace resolve hits log; do
     node web/gpu/wgsl.mjs "$modules" "$new/$kernel.spv" "$new/$kernel.wgsl"
     rm "$new/$kernel.spv"
 done
-"$here/tools/emptied" "$folder" && rmdir "$folder"
+"$here/tools/emptied" "$folder"
+rmdir "$folder"
 mv "$new" "$folder"

@@ -40,7 +40,7 @@ for other in plain.yaml plain.xml plain.json; do
     expect "drawn" 0 - '' "$glint" render "$other" -q --device reference -o other.pfm
     expect "the same picture, $other" 0 - - cmp other.pfm room.pfm
     expect "and once more" 0 - '' "$glint" convert "$other" again.yaml --expanded
-    expect "the same text" 0 - - sh -c "'$glint' convert plain.yaml once.yaml --expanded && cmp once.yaml again.yaml"
+    expect "the same text" 0 - - cmp plain.yaml again.yaml
 done
 same_twins room.yaml room.pfm
 
@@ -78,14 +78,14 @@ inside "turned by a matrix and back" "matrix: [[0, -1, 0, 2], [1, 0, 0, 0], [0, 
 
 # Names, places, materials that are handed down.
 expect "listed by object" 0 '^  chair            4 instances .room.yaml:8:3.$' - "$glint" inspect room.yaml
-expect "as JSON" 0 '"chair", *"instances": 4|"instances": 4' - "$glint" inspect room.yaml --format json
+expect "as JSON" 0 '"name": "chair", "instances": 4' - "$glint" inspect room.yaml --format json
 
 "$glint" render room.yaml -q --device reference --aov object -o names.pfm && cat names*.json >names.txt
 for body in 'left/instances.0..0./back' 'left/instances.0..1./boxes.0.' 'left/small/back' 'instances.1..1./boxes.0.' 'left/small/models.0..1..0.'; do
     expect "there is a $body" 0 - - grep -q "\"$body\"" names.txt
 done
-expect "the innermost material" 0 'material="red"' - sh -c "'$glint' convert room.yaml - --expanded | sed -n '/small/,/matrix/p'"
-expect "an answer names the instance" 0 '^in  ' - "$glint" pick room.yaml 28,18 --device reference
+expect "the innermost material" 0 '<Box material="red">' - sh -c "'$glint' convert room.yaml - --expanded | sed -n '/name=\"small\"/,/<.Instance>/p'"
+expect "an answer names the instance" 0 '^in +left/instances.0..1., room.yaml:21:11' - "$glint" pick room.yaml 28,18 --device reference
 expect "focus on a body in an object" 0 - '' "$glint" check room.yaml --set 'camera.focus_on="left/small/back"' --set camera.aperture=0.1
 expect "on an instance" 0 - '' "$glint" check room.yaml --set 'camera.focus_on=left' --set camera.aperture=0.1
 expect "not on what there is not" 1 - "there is no body 'left/tall/back'" "$glint" check room.yaml --set 'camera.focus_on="left/tall/back"' --set camera.aperture=0.1
@@ -96,12 +96,12 @@ expect "a parameter of an object" 0 'center: .0, 0.7, 0.' '' "$glint" inspect ro
 expect "in an object in place" 0 - '' "$glint" check room.yaml --set 'instances[left].object.instances[small].scale=0.6'
 { cat room.yaml; printf 'animation:\n  frames: 4\n  tracks: {"objects.chair.boxes[back].center.x": frame/4, "instances[left].rotation.y": 10*frame}\n'; } >moving.yaml
 expect "a track moves all that is shown" 0 - - sh -c "'$glint' inspect moving.yaml --frame 2 --ir | grep -c 'center: .0.5, ' | grep -qx 4"
-expect "and instances" 0 'rotation: .0, 20, 0.' - "$glint" inspect moving.yaml --frame 2 --ir
+expect "and instances" 0 'rotation: .0, 10, 0.' - "$glint" inspect moving.yaml --frame 1 --ir
 for frame in 0 3; do
-    "$glint" render moving.yaml -q --device reference --frame $frame -o moved.pfm
-    "$glint" convert moving.yaml still.yaml --expanded --frame $frame
-    "$glint" render still.yaml -q --device reference -o still.pfm
-    expect "frame $frame" 0 - - cmp moved.pfm still.pfm
+    "$glint" render moving.yaml -q --device reference --frame $frame -o moved$frame.pfm
+    "$glint" convert moving.yaml still$frame.yaml --expanded --frame $frame
+    "$glint" render still$frame.yaml -q --device reference -o still$frame.pfm
+    expect "frame $frame" 0 - - cmp moved$frame.pfm still$frame.pfm
 done
 sed 's/for: {i: 2}, if/for: {i: 2 + frame}, if/' moving.yaml >growing.yaml
 expect "a count that moves" 1 - 'depends on the frame' "$glint" check growing.yaml
@@ -119,5 +119,5 @@ sed '/^objects:/,/^    lights:/d; s/^glint: 1/&\ninclude: [chairs.yaml]/' room.y
 expect "drawn" 0 - - "$glint" render whole.yaml -q --device reference -o other.pfm
 expect "the same picture" 0 - - cmp other.pfm room.pfm
 printf 'glint: 1\ninclude: [chairs.yaml]\nparameters: {seat: 0.4}\nboxes: [{center: [0, 0, 0], size: seat}]\n' >none.yaml
-expect "a library may have more than is used" 0 - - sh -c "! '$glint' check none.yaml 2>&1 | grep W208"
+expect "a library may have more than is used" 0 - - "$glint" check none.yaml
 exit $failed

@@ -1,4 +1,4 @@
-// Models that share a mesh show the triangles that copies would, whatever rounding leaves of them.
+// Models that share a mesh show as many triangles as copies would, whatever rounding leaves of them.
 #include "flat_kit.h"
 #include "random.h"
 
