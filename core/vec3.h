@@ -140,6 +140,10 @@ static inline vec3 affine3_apply(affine3 a, vec3 v) {
     return vec3_add(mat3_apply(a.linear, v), a.offset);
 }
 
+static inline affine3 affine3_mul(affine3 outer, affine3 inner) {
+    return (affine3){mat3_mul(outer.linear, inner.linear), affine3_apply(outer, inner.offset)};
+}
+
 // ---- rotations
 
 struct vec3_turn {

@@ -68,7 +68,7 @@ uint32_t ir_copies_instance(const struct ir_copies *copies, const struct schema_
 // Whether two such instances, of two scenes, are called the same; 0 is none.
 bool ir_copies_are_same(const struct ir_copies *a, uint32_t instance_a, const struct ir_copies *b,
                         uint32_t instance_b);
-// What an instance is called, with those around it: chairs[3]/legs[0].
+// What an instance is called, with those around it: chairs[3]/legs[0]. `instance`: from 0.
 void ir_copies_instance_name(const struct ir_copies *copies, uint32_t instance, struct strbuf *out);
 // The same without the places of copies: what all copies of the entry share.
 void ir_copies_entry_label(const struct ir_copies *copies, const struct schema_row *list, uint32_t index,

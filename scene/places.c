@@ -30,10 +30,6 @@ static affine3 map_of(const struct ir_instance *ir) {
     return map;
 }
 
-static affine3 after(affine3 outer, affine3 inner) {
-    return (affine3){mat3_mul(outer.linear, inner.linear), affine3_apply(outer, inner.offset)};
-}
-
 void scene_build_places(struct scene *scene, struct arena *arena) {
     const struct ir_instances *instances = &scene->ir->instances;
     const struct schema_row *row = ir_walk_pool(&SCHEMA_INSTANCE);
@@ -43,7 +39,7 @@ void scene_build_places(struct scene *scene, struct arena *arena) {
     for (uint32_t i = 0; i < instances->count; i++) {
         const uint32_t around = ir_copies_instance(scene->ir->copies, row, i); // comes before those in it
         const affine3 own = map_of(&instances->items[i]);
-        places[i] = around ? after(places[around - 1], own) : own;
+        places[i] = around ? affine3_mul(places[around - 1], own) : own;
     }
     scene->places = places;
 }
@@ -89,17 +85,17 @@ bool scene_instance_bounds(const struct scene *scene, str name, vec3 *lower, vec
 
 // ---- even maps
 
-double scene_even_scale(const mat3 *linear, bool *is_even) {
+static bool is_even(const mat3 *linear) {
     const vec3 x = mat3_column(*linear, 0), y = mat3_column(*linear, 1), z = mat3_column(*linear, 2);
     const double lengths[3] = {vec3_length(x), vec3_length(y), vec3_length(z)};
     const double most = fmax(lengths[0], fmax(lengths[1], lengths[2]));
     const double angle =
         fmax(fabs(vec3_dot(vec3_unit(x), vec3_unit(y))),
              fmax(fabs(vec3_dot(vec3_unit(y), vec3_unit(z))), fabs(vec3_dot(vec3_unit(z), vec3_unit(x)))));
-    *is_even = angle <= EVEN;
+    bool even = angle <= EVEN;
     for (int i = 0; i < 3; i++)
-        *is_even = *is_even && fabs(lengths[i] - most) <= EVEN * most;
-    return lengths[0];
+        even = even && fabs(lengths[i] - most) <= EVEN * most;
+    return even;
 }
 
 static mat3 turn_of(const mat3 *linear, double scale) {
@@ -117,13 +113,12 @@ static void scale_cells(struct scene_body *body, struct arena *arena, vec3 scale
 }
 
 void scene_body_into(struct scene_body *body, const affine3 *place, struct arena *arena) {
-    const affine3 whole = after(*place, body->object_to_world);
-    bool is_even;
+    const affine3 whole = affine3_mul(*place, body->object_to_world);
     double scale = 1;
     switch (body->shape) {
     case SCENE_SPHERE:
     case SCENE_CONE:
-        scale = scene_even_scale(&place->linear, &is_even);
+        scale = vec3_length(mat3_column(place->linear, 0));
         body->height *= scale;
         body->radius_to *= scale;
         scene_body_place(body, (affine3){turn_of(&whole.linear, scale), whole.offset}, body->radius * scale);
@@ -149,10 +144,6 @@ void scene_body_into(struct scene_body *body, const affine3 *place, struct arena
 
 // ---- what is wrong with them
 
-static void name_instance(const struct scene *scene, uint32_t instance, struct strbuf *out) {
-    ir_copies_instance_name(scene->ir->copies, instance, out);
-}
-
 static void report_uneven(const struct scene *scene, struct diag_sink *sink,
                           const struct schema_element *element, uint32_t index, const struct ir_head *head) {
     const struct ir_origin *origin = scene->assets->origin;
@@ -164,7 +155,7 @@ static void report_uneven(const struct scene *scene, struct diag_sink *sink,
     if (diag_is_repeat(sink, DIAG_UNEVEN, at))
         return;
     strbuf_init(&name);
-    name_instance(scene, instance, &name);
+    ir_copies_instance_name(copies, instance, &name);
     diag_add(sink, DIAG_UNEVEN, at, "'%.*s' does not scale evenly, and would stretch this %s",
              STR_ARG(strbuf_view(&name)), element->name);
     strbuf_finish(&name);
@@ -177,10 +168,7 @@ static void report_uneven(const struct scene *scene, struct diag_sink *sink,
 static void check_even(const struct scene *scene, struct diag_sink *sink,
                        const struct schema_element *element, uint32_t index, const struct ir_head *head) {
     const affine3 *place = scene_place(scene, element, index);
-    bool is_even = true;
-    if (place)
-        scene_even_scale(&place->linear, &is_even);
-    if (!is_even)
+    if (place && !is_even(&place->linear))
         report_uneven(scene, sink, element, index, head);
 }
 

@@ -158,8 +158,6 @@ bool scene_is_body(const struct schema_element *element);
 const affine3 *scene_place(const struct scene *scene, const struct schema_element *element, uint32_t index);
 // The least box around all bodies of an instance, by its whole name; false: there is none, or it holds none.
 bool scene_instance_bounds(const struct scene *scene, str name, vec3 *lower, vec3 *upper);
-// By what a map scales, and whether it does so alike in all directions and keeps right angles.
-double scene_even_scale(const mat3 *linear, bool *is_even);
 // Adds an error for each instance that leaves its object no room (E417), and for each round thing that one
 // would stretch (E416).
 void scene_check_places(const struct scene *scene, struct diag_sink *sink);

@@ -146,13 +146,12 @@ void view_light_shine(struct view_light *light, vec3 place) {
 
 // From the object of an instance to the world.
 static void take_place(struct view_light *light, const affine3 *place) {
-    bool is_even;
     if (light->directional) {
         light->to_light = vec3_unit(mat3_apply(place->linear, light->to_light));
         return;
     }
     light->position = affine3_apply(*place, light->position);
-    light->radius *= scene_even_scale(&place->linear, &is_even);
+    light->radius *= vec3_length(mat3_column(place->linear, 0));
     if (light->extent != VIEW_PANEL)
         return;
     const double sign = mat3_determinant(place->linear) < 0 ? -1 : 1;

@@ -124,10 +124,6 @@ static affine3 place_of(struct gltf *gltf, json_index node) {
     return place;
 }
 
-static affine3 after(affine3 outer, affine3 inner) {
-    return (affine3){mat3_mul(outer.linear, inner.linear), affine3_apply(outer, inner.offset)};
-}
-
 // ---- nodes
 
 static void read_node(struct gltf *gltf, json_index node) {
@@ -205,7 +201,7 @@ static void show(struct gltf *gltf, const struct walk *walk, uint32_t root) {
             return;
         node->is_shown = true;
         if (node->parent != GLTF_NONE)
-            node->world = after(gltf->nodes.items[node->parent].world, node->local);
+            node->world = affine3_mul(gltf->nodes.items[node->parent].world, node->local);
         gltf->order[gltf->order_count++] = at;
         if (walk->first[at]) {
             at = walk->first[at] - 1;

@@ -110,14 +110,15 @@ static bool compute_given(struct evaluation *e, const struct copy_entry *entry, 
     return true;
 }
 
+// The names that the entries of an instance's object see come into reach, with their values. `instance`: 1 +
+// that of the scene. false: a parameter has no value (reported).
 static bool enter(struct evaluation *e, uint32_t instance) {
     const struct schema_row *row = ir_walk_pool(&SCHEMA_INSTANCE);
     const struct ir_copy *copy = &copies_list(e, row)->made[instance - 1];
     const struct copy_entry *entry = copies_entry(e, row, copy);
     struct object *object = entry->object;
     double values[REACH_MOST * EXPRESSION_WIDTH];
-    copies_enter_again(e, entry, copy->places, copy->instance);
-    if (!compute_given(e, entry, values))
+    if (!copies_enter_again(e, entry, copy->places, copy->instance) || !compute_given(e, entry, values))
         return false;
     objects_reach(e, object);
     for (uint32_t i = 0; i < object->ordered; i++) {
@@ -128,17 +129,6 @@ static bool enter(struct evaluation *e, uint32_t instance) {
     }
     e->base_of = instance;
     return true;
-}
-
-bool objects_enter(struct evaluation *e, uint32_t instance) {
-    if (e->base_of == instance) {
-        copies_leave(e);
-        return true;
-    }
-    if (enter(e, instance))
-        return true;
-    e->base_of = 0;
-    return false;
 }
 
 // ---- entries
@@ -152,7 +142,8 @@ bool copies_enter_again(struct evaluation *e, const struct copy_entry *entry, ui
             copies_leave(e);
             return true;
         }
-    } else if (e->base_of != instance && !objects_enter(e, instance)) {
+    } else if (e->base_of != instance && !enter(e, instance)) {
+        e->base_of = 0;
         return false;
     }
     if (e->entry != entry || e->variable_count != e->base + entry->variable_count)

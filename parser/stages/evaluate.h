@@ -193,7 +193,7 @@ uint32_t copies_of(const struct evaluation *evaluation, const struct schema_row 
                    uint32_t *count);
 
 // copies.c
-// Whether any entry of the scene has `for` or `if`.
+// Whether any entry of the scene has `for` or `if`, or the scene has objects or instances.
 bool copies_are_written(const struct ir_scene *scene);
 
 // copies_make.c

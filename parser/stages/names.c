@@ -332,7 +332,7 @@ static void find_focus(struct resolving *resolving, struct named_list *things) {
         if (name.len && memchr(name.ptr, '/', name.len)) // in an object: copies_finish.c looks for it
             continue;
         if (name.len && !(camera->head.poisoned & bind_bit((uint32_t)row)) && !is_body(find(things, name)) &&
-            !is_body(find(things, ir_copies_base(name)))) // copies.c looks for a copy
+            !is_body(find(things, ir_copies_base(name)))) // copies_finish.c looks for a copy
             report_focus(resolving, things, ir_place_value(origin, &camera->head, &SCHEMA_CAMERA, "focus_on"),
                          name);
     }

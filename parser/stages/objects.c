@@ -15,10 +15,6 @@ static const struct ir_origin *origin(const struct evaluation *e) {
     return &e->loader->output->origin;
 }
 
-static const struct schema_row *instances_of(const struct schema_element *schema) {
-    return &schema->rows[schema_find_yaml(schema, STR("instances"), &(bool){false})];
-}
-
 // ---- which instances show which object
 
 static struct object *object_of(const struct evaluation *e, const struct ir_instance *instance) {
@@ -163,7 +159,7 @@ static void report_rings(struct evaluation *e) {
 void objects_read(struct evaluation *e) {
     struct arena *scratch = &e->loader->scratch;
     const struct ir_objects *all = &e->scene->objects;
-    const struct schema_row *instances = instances_of(&SCHEMA_SCENE);
+    const struct schema_row *instances = ir_walk_pool(&SCHEMA_INSTANCE);
     if (all->count == 0)
         return;
     e->objects = ARENA_NEW(scratch, struct objects);

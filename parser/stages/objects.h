@@ -51,9 +51,6 @@ void objects_read_given(struct evaluation *e, struct copy_entry *entry);
 // copies_reach.c
 // The names that an object's entries see come into reach, without values. NULL: those of the scene's.
 void objects_reach(struct evaluation *e, const struct object *object);
-// The names that the entries of an instance's object see come into reach, with their values. `instance`: 1 +
-// that of the scene. false: a parameter has no value (reported).
-bool objects_enter(struct evaluation *e, uint32_t instance);
 
 // objects_make.c
 // Reports if instances would make too many things for certain.

@@ -120,6 +120,9 @@ uint32_t flatten_left_out(const struct flattening *f);
 // Marks the models of a mesh that are instances, and lists the triangles that they do not share.
 enum flatten_fault flatten_judge(struct flattening *f, struct shared_mesh *shared);
 
+// All models of a mesh are copies, for this reason.
+void flatten_keep_copies(struct flattening *f, struct shared_mesh *shared, enum flat_reason reason);
+
 // ---- flatten_instances.c
 
 // After flatten_triangles and the tree over copied triangles: adds to it the trees of shared meshes and one

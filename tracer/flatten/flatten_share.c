@@ -45,14 +45,6 @@ static void count_bytes(const struct flattening *f, struct shared_mesh *shared) 
     shared->saved_bytes = copies - own - (shared->instances ? triangles * placed_bytes(any_smooth) : 0);
 }
 
-static void keep_copies(struct flattening *f, struct shared_mesh *shared, enum flat_reason reason) {
-    for (uint32_t i = 0; i < shared->use_count; i++)
-        f->sharing.instance[f->sharing.uses[shared->first_use + i]] = 0;
-    if (shared->instances)
-        shared->reason = reason;
-    shared->instances = shared->copied_count = shared->left_out_count = 0;
-}
-
 // For triangles that are not shared: in a scene with instances their records are larger.
 static int64_t lost_bytes(const struct flattening *f) {
     int64_t triangles = f->triangle_total;
@@ -68,12 +60,12 @@ static void decide(struct flattening *f) {
     for (uint32_t i = 0; i < sharing->mesh_count; i++) {
         count_bytes(f, &sharing->meshes[i]);
         if (wanted == FLAT_CHEAPER && sharing->meshes[i].saved_bytes <= 0)
-            keep_copies(f, &sharing->meshes[i], FLAT_REASON_SMALL);
+            flatten_keep_copies(f, &sharing->meshes[i], FLAT_REASON_SMALL);
         saved += sharing->meshes[i].instances ? sharing->meshes[i].saved_bytes : 0;
     }
     if (wanted == FLAT_CHEAPER && saved - lost_bytes(f) < SAVED_LEAST)
         for (uint32_t i = 0; i < sharing->mesh_count; i++)
-            keep_copies(f, &sharing->meshes[i], FLAT_REASON_SMALL);
+            flatten_keep_copies(f, &sharing->meshes[i], FLAT_REASON_SMALL);
 }
 
 // Decides without looking at the triangles: sharing would save too little even if all models could be
@@ -90,7 +82,8 @@ static bool is_decided(struct flattening *f) {
         shared->instances = shared->use_count;
         count_bytes(f, shared);
         saved += shared->saved_bytes > 0 ? shared->saved_bytes : 0;
-        keep_copies(f, shared, f->input->sharing == FLAT_COPIES ? FLAT_REASON_COPIES : FLAT_REASON_SMALL);
+        flatten_keep_copies(f, shared,
+                            f->input->sharing == FLAT_COPIES ? FLAT_REASON_COPIES : FLAT_REASON_SMALL);
     }
     return f->input->sharing == FLAT_COPIES || saved < SAVED_LEAST;
 }

@@ -213,12 +213,12 @@ static void judge_low(void *context, size_t begin, size_t end) {
         j->fate[i] = fate_of(j, j->low[i]);
 }
 
-static void make_copies(struct judging *j) {
-    struct shared_mesh *shared = j->shared;
+void flatten_keep_copies(struct flattening *f, struct shared_mesh *shared, enum flat_reason reason) {
     for (uint32_t i = 0; i < shared->use_count; i++)
-        j->f->sharing.instance[j->f->sharing.uses[shared->first_use + i]] = 0;
+        f->sharing.instance[f->sharing.uses[shared->first_use + i]] = 0;
+    if (shared->instances)
+        shared->reason = reason;
     shared->instances = shared->copied_count = shared->left_out_count = 0;
-    shared->reason = FLAT_REASON_THIN;
 }
 
 static bool judge_triangles(struct judging *j, double most) {
@@ -242,7 +242,7 @@ static bool judge_triangles(struct judging *j, double most) {
             shared->left_out[shared->left_out_count++] = j->low[i];
     }
     if (shared->copied_count > count / COPIED_PART)
-        make_copies(j);
+        flatten_keep_copies(j->f, shared, FLAT_REASON_THIN);
     return true;
 }
 
