@@ -14,6 +14,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum {
     PARALLELOGRAM_TRIANGLES = 2
@@ -26,7 +27,8 @@ const struct scene_cells SCENE_CELLS_OWN = {{1, 1, 1}, {0, 0, 0}};
 struct building {
     struct scene *scene;
     struct arena *arena;
-    uint32_t *material; // the next place for a body's one material
+    uint32_t *material;              // the next place for a body's one material
+    const struct scene_cells *cells; // the last ones made
 };
 
 static struct scene_body *add(struct building *b, const struct schema_element *element, uint32_t index,
@@ -43,10 +45,15 @@ static void take_material(struct building *b, struct scene_body *body, const str
     body->group_count = 1;
 }
 
+// Bodies one after the other with the same cells share them, as copies of one entry do.
 static void set_cells(struct building *b, struct scene_body *body, vec3 scale, vec3 offset) {
-    struct scene_cells *cells = ARENA_NEW(b->arena, struct scene_cells);
-    *cells = (struct scene_cells){scale, offset};
-    body->cells = cells;
+    const struct scene_cells wanted = {scale, offset};
+    if (!b->cells || memcmp(b->cells, &wanted, sizeof wanted)) {
+        struct scene_cells *cells = ARENA_NEW(b->arena, struct scene_cells);
+        *cells = wanted;
+        b->cells = cells;
+    }
+    body->cells = b->cells;
 }
 
 static void take_mesh(struct scene_body *body, const struct mesh *mesh) {
@@ -162,7 +169,7 @@ void scene_build_bodies(struct scene *scene, struct arena *arena) {
     uint32_t total = 0;
     for (int i = 0; i < KIND_COUNT; i++)
         total += counts[i] = ir_walk_list(ir_walk_pool(KINDS[i].element), scene->ir).count;
-    struct building b = {scene, arena, ARENA_ARRAY(arena, uint32_t, total)};
+    struct building b = {.scene = scene, .arena = arena, .material = ARENA_ARRAY(arena, uint32_t, total)};
     scene->bodies = ARENA_ARRAY(arena, struct scene_body, total);
     for (int i = 0; i < KIND_COUNT; i++)
         for (uint32_t k = 0; k < counts[i]; k++) {

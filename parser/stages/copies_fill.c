@@ -143,6 +143,8 @@ static void fill_item(struct evaluation *e, const struct schema_row *row, void *
     if (!entry)
         return;
     copies_clear_rows(row->child, item);
+    if (row->child == &SCHEMA_INSTANCE) // given, when what it shows was made
+        ((struct ir_instance *)item)->with = (struct ir_withs){0};
     name_copy(e, row, item, copy);
     if (entry->variable_count || copy->instance) {
         if (has_lists(row->child, item))

@@ -1,4 +1,5 @@
 // One scene from several files: elements that occur once merge by attribute, lists are joined.
+#include "core/heap.h"
 #include "grammar/ir.h"
 #include "grammar/ir_formula.h"
 #include "grammar/ir_walk.h"
@@ -40,13 +41,15 @@ void merge_clone_lists(struct arena *arena, const struct schema_element *schema,
             merge_clone_lists(arena, row->child, field);
         if (row->kind != SCHEMA_LIST)
             continue;
-        struct ir_lights was;
-        memcpy(&was, field, sizeof was);
-        memset(field, 0, row->size);
-        for (uint32_t k = 0; k < was.count; k++) {
-            bind_list_push(arena, field, (char *)was.items + (size_t)k * row->child->size, row->child->size);
-            merge_clone_lists(arena, row->child, bind_list_item(field, k, row->child->size));
-        }
+        struct ir_any_list list = ir_walk_list(row, memory);
+        const void *was = list.items;
+        list.capacity = list.count;
+        list.items = list.count ? arena_alloc_array(arena, list.count, row->child->size) : NULL;
+        if (list.count)
+            memcpy(list.items, was, heap_times(list.count, row->child->size));
+        memcpy(field, &list, sizeof list);
+        for (uint32_t k = 0; k < list.count; k++)
+            merge_clone_lists(arena, row->child, ir_walk_item(row, list, k));
     }
 }
 
