@@ -230,9 +230,12 @@ struct ir_highlight {
 struct ir_material {
     struct ir_head head;
     str name; // empty: anonymous, written inline where it is used
+    unsigned preset; // 0: none; else the row of presets.def that it takes its values from, counted from 1
     struct ir_weights albedo;
     struct ir_paint diffuse_color;
     struct ir_highlight specular_color;
+    struct ir_color reflection_color;
+    bool metal;
     struct ir_color emission;
     double specular_exponent;
     double refractive_index;

@@ -14,6 +14,20 @@ static const char *const wrap_words[] = {"repeat", "clamp", "mirror", NULL};
 static const char *const wrap_docs[] = {"The image begins anew.", "The image's edge goes on.",
                                         "The image begins anew, every other one mirrored.", NULL};
 
+// grammar/presets.def: the words, and what each stands for as a sentence.
+static const char *const preset_words[] = {"none",
+#define PRESET(word, name, values) #word,
+#include "grammar/presets.def"
+#undef PRESET
+                                           NULL};
+static const char *const preset_docs[] = {"What is not written has its default.",
+#define PRESET(word, name, values) name values ".",
+#define VALUE(row, value)          ", " row " " value
+#include "grammar/presets.def"
+#undef VALUE
+#undef PRESET
+                                          NULL};
+
 // A row reads as a unit, its columns in lines of text.
 // clang-format off
 static const struct schema_row checker_rows[] = {
@@ -84,6 +98,9 @@ static const struct schema_row material_rows[] = {
     {.name = "name", FIELD(ir_material, name), .example = "glass",
      .also = "id", .text = SCHEMA_TEXT_NAME, .key = true,
      .doc = "Name for references."},
+    {.name = "preset", FIELD(ir_material, preset), .words = preset_words, .word_docs = preset_docs, .standard = "none",
+     .example = "gold", .also = "base template based_on",
+     .doc = "A material that is known by its name: what is not written beside it has that material's values."},
     {.name = "albedo", .element = "Albedo", FIELD(ir_material, albedo), .example = "0 0.5 0.1 0.8",
      .range = SCHEMA_RANGE_WEIGHT, .standard = "1 0 0 0",
      .weight_features = {FEATURE_DIFFUSE, FEATURE_SPECULAR, FEATURE_REFLECTION, FEATURE_REFRACTION},
@@ -95,6 +112,14 @@ static const struct schema_row material_rows[] = {
      .also = "ks highlight_color",
      .child = &SCHEMA_HIGHLIGHT,
      .doc = "Colour of the highlights."},
+    {.name = "reflection_color", .element = "ReflectionColor", FIELD(ir_material, reflection_color),
+     .also = "mirror_color reflection_tint metal_color f0", .example = "1 0.78 0.34", .range = SCHEMA_RANGE_FRACTION,
+     .standard = "1 1 1", .feature = FEATURE_REFLECTION_COLOR,
+     .doc = "Colour of what the surface mirrors; highlights keep 'specular_color'. A metal has it straight on."},
+    {.name = "metal", FIELD(ir_material, metal), .standard = "false", .example = "true",
+     .also = "metallic metalness metallicness conductor", .feature = FEATURE_REFLECTION_COLOR,
+     .doc = "Whether the surface mirrors as metals do: 'reflection_color' straight on, and the whiter the more "
+            "grazing the light is (Schlick's form of Fresnel's equations)."},
     {.name = "emission", .element = "Emission", FIELD(ir_material, emission), .example = "1 0.8 0.5",
      .also = "emissive emission_color emissive_color ke glow",
      .range = SCHEMA_RANGE_WEIGHT, .standard = "0 0 0", .feature = FEATURE_EMISSION,

@@ -50,7 +50,7 @@ static void look_inside(struct lint *lint, const struct ir_material *material) {
     const struct ir_weights *w = &material->albedo;
     if (w->refraction > 0)
         return;
-    const bool varnished = material->fresnel && w->reflection > 0;
+    const bool varnished = material->fresnel && !material->metal && w->reflection > 0;
     const char *row = material->priority != 0 ? "priority" : "refractive_index";
     if (material->priority == 0 && (varnished || material->refractive_index == 1))
         return;
@@ -64,6 +64,30 @@ static void look_inside(struct lint *lint, const struct ir_material *material) {
               row);
 }
 
+// What only light that is mirrored shows, and what a metal has no use for.
+static void look_at_mirror(struct lint *lint, const struct ir_material *material) {
+    const char *const rows[] = {"reflection_color", "metal"};
+    const bool has[] = {lint_is_written(&material->head, &SCHEMA_MATERIAL, rows[0]), material->metal};
+    for (int i = 0; i < 2 && !(material->albedo.reflection > 0); i++) {
+        if (!has[i] || !lint_is_written(&material->head, &SCHEMA_MATERIAL, rows[i]))
+            continue;
+        diag_add(lint->sink, DIAG_UNUSED_VALUE,
+                 ir_place_key(lint->origin, &material->head, &SCHEMA_MATERIAL, rows[i]),
+                 "'%s' of %.*s has no effect: it does not reflect", rows[i],
+                 STR_ARG(lint_material_words(lint, material)));
+        diag_help(lint->sink, "give it a weight of reflection, the third number of albedo, or leave '%s' out",
+                  rows[i]);
+    }
+    if (!material->metal || !material->fresnel ||
+        !lint_is_written(&material->head, &SCHEMA_MATERIAL, "fresnel"))
+        return;
+    diag_add(lint->sink, DIAG_UNUSED_VALUE,
+             ir_place_key(lint->origin, &material->head, &SCHEMA_MATERIAL, "fresnel"),
+             "'fresnel' of %.*s has no effect: it is a metal, which mirrors more towards its edge by itself",
+             STR_ARG(lint_material_words(lint, material)));
+    diag_help(lint->sink, "leave 'fresnel' out, or 'metal' for a surface with a 'refractive_index'");
+}
+
 static void look_at_material(struct lint *lint, const struct ir_material *material) {
     const struct ir_weights *w = &material->albedo;
     const bool sends_rays = w->reflection > 0 || w->refraction > 0;
@@ -71,6 +95,7 @@ static void look_at_material(struct lint *lint, const struct ir_material *materi
         report_row(lint, material, "roughness");
     if (!sends_rays && material->fresnel)
         report_row(lint, material, "fresnel");
+    look_at_mirror(lint, material);
     look_inside(lint, material);
     if (material->diffuse_color.kind == IR_PAINT_IMAGE && !(w->diffuse > 0))
         report_image(lint, material, &material->diffuse_color.image, "diffuse_color", "diffuse");

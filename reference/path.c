@@ -121,6 +121,7 @@ static double send_rays(struct following *f, const struct branch *from, const st
     }
     back.throughput *= reference_reflection(s, &split);
     if (back.throughput > 0) {
+        back.tint = vec3_times(back.tint, reference_mirror_color(s, from->direction, &split));
         back.start = reference_leave(f->r, s, s->geometric);
         back.direction = reference_mirrored(f->r, s, from->direction);
         back.cone = reference_mirrored_cone(s, from->cone);

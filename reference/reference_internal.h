@@ -283,6 +283,8 @@ struct split {
 void reference_split(const struct reference *r, const struct surface *s, vec3 direction, struct split *out);
 // The weights of the rays that leave.
 double reference_reflection(const struct surface *s, const struct split *split);
+// What the mirrored ray keeps of each channel.
+vec3 reference_mirror_color(const struct surface *s, vec3 direction, const struct split *split);
 double reference_refraction(const struct surface *s, const struct split *split);
 // The share that passes straight through a surface, as for shadow rays.
 double reference_shine(const struct surface *s, vec3 direction);
@@ -357,7 +359,7 @@ struct branch {
     vec3 direction;
     struct cone cone;
     double throughput;
-    vec3 tint; // what attenuation has left of each channel
+    vec3 tint; // what attenuation and coloured mirrors have left of each channel
     struct inside inside;
     uint32_t key; // of its points
     uint32_t depth;

@@ -315,6 +315,24 @@ double reference_reflection(const struct surface *s, const struct split *split) 
                                                     : s->is->reflection;
 }
 
+// Schlick 1994: a metal mirrors its colour straight on, and white at a right angle to that.
+static vec3 metal(vec3 color, double c) {
+    const double grazing = pow(fmin(fmax(1 - c, 0), 1), 5);
+    return vec3_add(color, vec3_mul(vec3_sub((vec3){1, 1, 1}, color), grazing));
+}
+
+vec3 reference_mirror_color(const struct surface *s, vec3 direction, const struct split *split) {
+    const struct scene_material *m = s->is;
+    const double facing = -vec3_dot(direction, s->facet);
+    const vec3 color =
+        m->metal ? metal(m->mirror, facing > 0 ? facing : -vec3_dot(direction, s->geometric)) : m->mirror;
+    if (m->fresnel || split->through || !(m->refraction > 0))
+        return color;
+    // What would have been refracted is turned back as it is.
+    const vec3 both = vec3_add(vec3_mul(color, m->reflection), vec3_mul((vec3){1, 1, 1}, m->refraction));
+    return vec3_mul(both, 1 / (m->reflection + m->refraction));
+}
+
 double reference_refraction(const struct surface *s, const struct split *split) {
     if (!split->through)
         return 0;

@@ -26,12 +26,15 @@
     /* The checker is filtered. */ \
     FIELD(FLAG, soft, MEDIUM, APART, has_checker(ir) && ir->diffuse_color.checker.antialias) \
     FIELD(COLOR, specular, MEDIUM, MATERIAL, scene_linear_color(ir->specular_color.color, transfer)) \
+    /* Times what is mirrored; of a metal straight on. */ \
+    FIELD(COLOR, mirror, MEDIUM, MATERIAL, scene_linear_color(ir->reflection_color, transfer)) \
+    FIELD(FLAG, metal, MEDIUM, MATERIAL, ir->metal) \
     FIELD(COLOR, emission, MEDIUM, MATERIAL, scene_linear_color(ir->emission, transfer)) \
     /* Images that replace the diffuse and the specular colour. scene_build_textures makes them. */ \
     FIELD(IMAGES, images, MEDIUM, APART, {{NULL}}) \
     FIELD(NUMBER, specular_exponent, MEDIUM, MATERIAL, ir->specular_exponent) \
     FIELD(NUMBER, refractive_index, MEDIUM, MATERIAL, ir->refractive_index) \
-    FIELD(FLAG, fresnel, MEDIUM, MATERIAL, ir->fresnel) \
+    FIELD(FLAG, fresnel, MEDIUM, MATERIAL, ir->fresnel && !ir->metal) \
     /* Parameter of the distribution of micro normals: 0 is smooth. */ \
     FIELD(NUMBER, alpha, MEDIUM, MATERIAL, ir->roughness * ir->roughness) \
     FIELD(WHOLE, priority, BESIDE, APART, ir->priority) \

@@ -81,7 +81,8 @@ static const double GAIN_ROUNDING = 1e-9;
 
 double scene_gain(const struct ir_material *material) {
     const struct ir_weights *w = &material->albedo;
-    return material->fresnel ? fmax(w->reflection, w->refraction) : w->reflection + w->refraction;
+    return material->fresnel && !material->metal ? fmax(w->reflection, w->refraction)
+                                                 : w->reflection + w->refraction;
 }
 
 bool scene_amplifies(const struct scene *scene) {

@@ -51,7 +51,7 @@ struct waiting_medium {
     media_set inside;
     vec3 tint;
 };
-const uint MEDIA_BRANCHES = HAS_MEDIA ? BRANCHES : 1u;
+const uint MEDIA_BRANCHES = CARRIES ? BRANCHES : 1u;
 waiting_medium waiting_media[MEDIA_BRANCHES];
 
 const uint KEY_BRANCHES = HAS_POINTS ? BRANCHES : 1u;
@@ -65,7 +65,7 @@ void take_waiting(inout path_state p) {
         p.cone = waiting_cones[p.stack_size];
     p.throughput = ray.throughput;
     p.depth = ray.depth;
-    if (HAS_MEDIA) {
+    if (CARRIES) {
         p.inside = waiting_media[p.stack_size].inside;
         p.tint = waiting_media[p.stack_size].tint;
     }
@@ -78,8 +78,8 @@ void save_waiting(uint place, uint count) {
         uint word = BRANCHES_WORD + BRANCH_WORDS * i;
         put_branch(place, word, waiting[i].start, waiting[i].direction, waiting_cones[HAS_FOOTPRINT ? i : 0u],
                    waiting[i].throughput, waiting[i].depth);
-        if (HAS_MEDIA)
-            put_media(place, word + BRANCH_WORDS - MEDIA_BRANCH_WORDS, waiting_media[i].inside, waiting_media[i].tint);
+        if (CARRIES)
+            put_media(place, word + BRANCH_WORDS - CARRIED_WORDS, waiting_media[i].inside, waiting_media[i].tint);
         if (HAS_POINTS)
             put_key(place, word + BRANCH_WORDS - MORE_BRANCH_WORDS, waiting_keys[i]);
     }
@@ -92,8 +92,8 @@ void load_waiting(uint place, uint count) {
         waiting[i] = waiting_ray(p.start, p.direction, p.throughput, p.depth);
         if (HAS_FOOTPRINT)
             waiting_cones[i] = p.cone;
-        if (HAS_MEDIA) {
-            get_media(place, BRANCHES_WORD + BRANCH_WORDS * (i + 1u) - MEDIA_BRANCH_WORDS, p);
+        if (CARRIES) {
+            get_media(place, BRANCHES_WORD + BRANCH_WORDS * (i + 1u) - CARRIED_WORDS, p);
             waiting_media[i] = waiting_medium(p.inside, p.tint);
         }
         if (HAS_POINTS)

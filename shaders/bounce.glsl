@@ -78,10 +78,26 @@ struct scatter_rays {
     REAL3 bent;                   // direction of the refracted ray
     float reflection, refraction; // factors of the ray's throughput; 0: no such ray
     bool total;                   // the mirrored ray also has the refracted one's weight
+    vec3 color;                   // with HAS_REFLECTION_COLOR: what the mirrored ray keeps of each channel
 };
 
+// A metal mirrors its colour straight on and ever more of white towards grazing rays (Schlick 1994). The share that is turned
+// back inside has no colour.
+vec3 mirror_color(REAL3 d, surface s, bool total) {
+    REAL3 n = s.shading;
+    if (HAS_ROUGHNESS)
+        n = s.micro;
+    REAL c = -dot3(d, n);
+    c = c > 0.0 ? c : -dot3(d, s.geometric);
+    float past = clamp(1.0 - float(c), 0.0, 1.0), square = past * past;
+    vec3 color = s.mirror;
+    color = s.metal ? color + (1.0 - color) * (square * square * past) : color;
+    bool both = total && !(HAS_FRESNEL && s.fresnel);
+    return both ? (color * s.reflection + s.refraction) / (s.reflection + s.refraction) : color;
+}
+
 scatter_rays scatter(REAL3 direction, surface s) {
-    scatter_rays rays = scatter_rays(direction, HAS_REFLECTION ? s.reflection : 0.0, 0.0, false);
+    scatter_rays rays = scatter_rays(direction, HAS_REFLECTION ? s.reflection : 0.0, 0.0, false, vec3(1.0));
     REAL c, k;
     bool refracts = HAS_REFRACTION && s.refraction > 0.0;
     if (HAS_REFRACTION || HAS_FRESNEL) {
@@ -95,7 +111,9 @@ scatter_rays scatter(REAL3 direction, surface s) {
         rays.reflection = s.fresnel ? (HAS_REFLECTION ? s.reflection : 0.0) * share : rays.reflection;
         rays.refraction = s.fresnel ? rays.refraction * (1.0 - share) : rays.refraction;
     }
+    if (HAS_REFLECTION_COLOR)
+        rays.color = mirror_color(direction, s, rays.total);
     if (HAS_MEDIA && s.passes)
-        rays = scatter_rays(direction, 0.0, 1.0, false);
+        rays = scatter_rays(direction, 0.0, 1.0, false, vec3(1.0));
     return rays;
 }

@@ -44,8 +44,9 @@
     ROW(SKY_LIGHT, sky_light)                                                                                \
     ROW(SEEN_LIGHT, seen_light)                                                                              \
     ROW(CONES, cones)                                                                                        \
-    ROW(TURNED, turned)
-#define FEATURE_COUNT 35
+    ROW(TURNED, turned)                                                                                      \
+    ROW(REFLECTION_COLOR, reflection_color)
+#define FEATURE_COUNT 36
 
 #ifdef __STDC_VERSION__
 #include <stdint.h>
@@ -91,6 +92,7 @@
 #define FEATURE_SEEN_LIGHT       FEATURE_SECOND(0) /* lights that rays see */
 #define FEATURE_CONES            FEATURE_SECOND(1) /* cylinders and cones */
 #define FEATURE_TURNED           FEATURE_SECOND(2) /* spheres whose images are turned */
+#define FEATURE_REFLECTION_COLOR FEATURE_SECOND(3) /* mirrors with a colour of their own, and metals */
 /* With any of them something with extent is sampled: rays have keys (light/points.h). */
 #define FEATURE_POINTS                                                                                       \
     (FEATURE_SOFT_LIGHT | FEATURE_OCCLUSION | FEATURE_ROUGHNESS | FEATURE_CAMERA | FEATURE_SKY_LIGHT)

@@ -140,9 +140,11 @@
 #define STATE64_WORDS       10
 #define LONG_RAY_WORDS      4 /* then two entries of a tree's stack per word */
 #define STACK64_ENTRY_WORDS 6
-/* With FEATURE_MEDIA, for a path and for each waiting ray: what it is inside, and what attenuation left of
-   its light; with FEATURE_CLEAR_SHADOWS then, for a path, a shadow ray on its way (path_words.glsl). */
+/* With FEATURE_MEDIA, for a path and for each waiting ray: what it is inside, and what is left of each
+   channel of its light; with FEATURE_REFLECTION_COLOR alone only that; with FEATURE_CLEAR_SHADOWS then, for a
+   path, a shadow ray on its way (path_words.glsl). */
 #define MEDIA_WORDS 3
+#define TINT_WORDS  1
 #define SHINE_WORDS 7
 /* With FEATURE_POINTS, for both: the key, after a path's words and before those of a waiting ray. */
 #define KEY_WORDS 1

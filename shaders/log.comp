@@ -121,6 +121,7 @@ void write_surface(uint at, log_ray ray, hit_record hit, surface s) {
     write_ray(at + LOG_REFLECTED, leave(s, hit, s.geometric), reflected(ray.direction, s), mirrored);
     write_ray(at + LOG_REFRACTED, leave(s, hit, -s.geometric), rays.bent, bent);
     write_way(at, ray, hit.t);
+    pixels[at + LOG_COLOR] = uvec4(floatBitsToUint(HAS_REFLECTION_COLOR ? rays.color : vec3(1.0)), 0u);
     pixels[at + LOG_AFTER] = HAS_MEDIA && wants(FEATURE_MEDIA) ? s.after.a : uvec4(0u);
     pixels[at + LOG_AFTER + 1u] = HAS_MEDIA && wants(FEATURE_MEDIA) ? s.after.b : uvec4(0u);
 }

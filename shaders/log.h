@@ -23,12 +23,13 @@
    10: the mirrored ray as in STATE, without what it is inside
    16: the refracted ray
    22: what is left of light on the way to the surface, as bits of floats; key of the ray   23: what the
-   refracted ray is inside */
+   refracted ray is inside   25: what the mirrored ray keeps of each channel, as bits of floats */
 #define LOG_REFLECTED 10
 #define LOG_REFRACTED 16
 #define LOG_LEFT      22
 #define LOG_AFTER     23
-#define LOG_WORDS     25
+#define LOG_COLOR     25
+#define LOG_WORDS     26
 #define LOG_NOTHING   0xffffffffu
 #define LOG_ENTERS    1u
 #define LOG_TOTAL     2u /* the ray would be refracted, and is turned back */

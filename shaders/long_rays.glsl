@@ -13,7 +13,7 @@ const uint LOW_WORD = STATE64_WORDS;
 #else
 const uint LOW_WORD = STATE_WORDS;
 #endif
-const uint CONE_WORD = LOW_WORD + (HAS_MANY_LIGHTS ? 1u : 0u) + (HAS_MEDIA ? MEDIA_WORDS : 0u) +
+const uint CONE_WORD = LOW_WORD + (HAS_MANY_LIGHTS ? 1u : 0u) + CARRIED_WORDS +
                         (HAS_CLEAR_SHADOWS ? SHINE_WORDS : 0u);
 const uint KEY_WORD = CONE_WORD + (HAS_FOOTPRINT ? 1u : 0u);
 const uint PATH_WORDS = KEY_WORD + (HAS_POINTS ? KEY_WORDS : 0u);

@@ -19,7 +19,7 @@ struct path_state {
     vec3 light_low; // with HAS_MANY_LIGHTS: what rounding dropped of it
     uint stack_size;
     media_set inside; // with HAS_MEDIA
-    vec3 tint;        // what attenuation has left of each channel
+    vec3 tint;        // with HAS_TINT: what attenuation and coloured mirrors have left of each channel
     shining shine;    // with HAS_CLEAR_SHADOWS: of the light `light`
     uint key;         // with HAS_POINTS: of its ray (points.h)
 };
@@ -49,18 +49,18 @@ path_state begin_path(camera_ray ray) {
     return p;
 }
 
-// What a path adds to its pixel: `value` times what attenuation leaves of it.
+// What a path adds to its pixel: `value` times what is left of each channel.
 vec3 tinted(path_state p, vec3 value) {
     vec3 result = value * p.throughput;
-    if (HAS_ATTENUATION)
+    if (HAS_TINT)
         result = value * p.tint * p.throughput;
     return result;
 }
 
 // The largest share that a channel of its light has in the pixel.
-float greatest_part(path_state p, float throughput) {
+float greatest_part(vec3 tint, float throughput) {
     float greatest = throughput;
-    if (HAS_ATTENUATION)
-        greatest = throughput * max(p.tint.x, max(p.tint.y, p.tint.z));
+    if (HAS_TINT)
+        greatest = throughput * max(tint.x, max(tint.y, tint.z));
     return greatest;
 }

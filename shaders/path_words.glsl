@@ -10,20 +10,22 @@ uint state_word(uint place, uint word) { return word * dispatch.places + place; 
 // ---- what a path is inside, and what its waiting refracted rays are inside
 
 const uint MEDIA_WORD = LOW_WORD + (HAS_MANY_LIGHTS ? 1u : 0u);
-const uint SHINE_WORD = MEDIA_WORD + (HAS_MEDIA ? MEDIA_WORDS : 0u);
-const uint MEDIA_BRANCH_WORDS = HAS_MEDIA ? MEDIA_WORDS : 0u;
+const uint SHINE_WORD = MEDIA_WORD + CARRIED_WORDS;
 const uint KEY_BRANCH_WORDS = HAS_POINTS ? KEY_WORDS : 0u;
-const uint MORE_BRANCH_WORDS = KEY_BRANCH_WORDS + MEDIA_BRANCH_WORDS;
+const uint MORE_BRANCH_WORDS = KEY_BRANCH_WORDS + CARRIED_WORDS;
 
 void put_media(uint slot, uint word, media_set inside, vec3 tint) {
-    states[state_word(slot, word)] = inside.a;
-    states[state_word(slot, word + 1u)] = inside.b;
-    states[state_word(slot, word + 2u)] = uvec4(floatBitsToUint(tint), 0u);
+    if (HAS_MEDIA) {
+        states[state_word(slot, word)] = inside.a;
+        states[state_word(slot, word + 1u)] = inside.b;
+    }
+    states[state_word(slot, word + CARRIED_WORDS - 1u)] = uvec4(floatBitsToUint(tint), 0u);
 }
 
 void get_media(uint slot, uint word, inout path_state p) {
-    p.inside = media_set(states[state_word(slot, word)], states[state_word(slot, word + 1u)]);
-    p.tint = uintBitsToFloat(states[state_word(slot, word + 2u)].xyz);
+    if (HAS_MEDIA)
+        p.inside = media_set(states[state_word(slot, word)], states[state_word(slot, word + 1u)]);
+    p.tint = uintBitsToFloat(states[state_word(slot, word + CARRIED_WORDS - 1u)].xyz);
 }
 
 // Numbers of the kernel's precision, two to a word.
@@ -51,7 +53,7 @@ shining get_shine(uint slot) {
 }
 
 void put_path_media(uint slot, path_state p) {
-    if (HAS_MEDIA)
+    if (CARRIES)
         put_media(slot, MEDIA_WORD, p.inside, p.tint);
     if (HAS_CLEAR_SHADOWS)
         put_shine(slot, p.shine);
@@ -60,7 +62,7 @@ void put_path_media(uint slot, path_state p) {
 void get_path_media(uint slot, inout path_state p) {
     p.tint = vec3(1.0);
     p.shine.goes_on = false;
-    if (HAS_MEDIA)
+    if (CARRIES)
         get_media(slot, MEDIA_WORD, p);
     if (HAS_CLEAR_SHADOWS)
         p.shine = get_shine(slot);
@@ -312,9 +314,9 @@ void push_branch(uint slot, inout path_state p, ray_start start, REAL3 direction
     p.stack_size++;
 }
 
-// The media of the ray that was pushed last.
+// The media and the tint of the ray that was pushed last.
 void push_media(uint slot, path_state p, media_set inside) {
-    uint word = BRANCHES_WORD + BRANCH_WORDS * p.stack_size - MEDIA_BRANCH_WORDS;
+    uint word = BRANCHES_WORD + BRANCH_WORDS * p.stack_size - CARRIED_WORDS;
 #ifndef FETCH_TEXELS
     if (AT_ONCE)
         waiting_media[p.stack_size - 1u] = waiting_medium(inside, p.tint);
@@ -331,8 +333,8 @@ void pop_branch(uint slot, inout path_state p) {
 #endif
     if (!AT_ONCE)
         get_branch(slot, BRANCHES_WORD + BRANCH_WORDS * p.stack_size, p);
-    if (HAS_MEDIA && !AT_ONCE)
-        get_media(slot, BRANCHES_WORD + BRANCH_WORDS * (p.stack_size + 1u) - MEDIA_BRANCH_WORDS, p);
+    if (CARRIES && !AT_ONCE)
+        get_media(slot, BRANCHES_WORD + BRANCH_WORDS * (p.stack_size + 1u) - CARRIED_WORDS, p);
     if (HAS_POINTS && !AT_ONCE)
         p.key = get_key(slot, BRANCHES_WORD + BRANCH_WORDS * (p.stack_size + 1u) - MORE_BRANCH_WORDS);
     p.kind = RAY_REFRACTED;

@@ -156,8 +156,8 @@
     REAL3(row_z, 3, 5)                                                                                       \
     REAL(offset_z, 3, w, 6, zw)
 
-#define MATERIAL_WORDS   6
-#define MATERIAL64_WORDS 7
+#define MATERIAL_WORDS   7
+#define MATERIAL64_WORDS 8
 #define MATERIAL_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                    \
     FLOAT(diffuse_weight, 0, x, 0, x)                                                                        \
     FLOAT(specular_weight, 0, y, 0, y)                                                                       \
@@ -172,7 +172,9 @@
     FLOAT3(absorption, 4, 5)  /* per flat unit: exp(-absorption * way) of light is left */                   \
     UINT(fresnel, 4, w, 5, w)                                                                                \
     FLOAT3(emission, 5, 6)                                                                                   \
-    FLOAT(alpha, 5, w, 6, w) /* of a rough surface */
+    FLOAT(alpha, 5, w, 6, w) /* of a rough surface */                                                        \
+    FLOAT3(mirror, 6, 7)     /* times the mirrored light; of a metal straight on */                          \
+    UINT(metal, 6, w, 7, w)
 
 /* How a material shows an image; the rows map a surface's coordinates (u, v, 1) to the image's. */
 #define PAINT_WORDS   3

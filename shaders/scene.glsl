@@ -55,6 +55,11 @@ const bool HAS_SKY_LIGHT = (FEATURES & FEATURE_SKY_LIGHT) != 0u;
 const bool HAS_SEEN_LIGHT = (MORE_FEATURES & FEATURE_SEEN_LIGHT.y) != 0u;
 const bool HAS_CONES = (MORE_FEATURES & FEATURE_CONES.y) != 0u;
 const bool HAS_TURNED = (MORE_FEATURES & FEATURE_TURNED.y) != 0u;
+const bool HAS_REFLECTION_COLOR = (MORE_FEATURES & FEATURE_REFLECTION_COLOR.y) != 0u;
+const bool HAS_TINT = HAS_ATTENUATION || HAS_REFLECTION_COLOR; // the channels of a path are weakened apart
+// What a path and its waiting rays carry with them.
+const bool CARRIES = HAS_MEDIA || HAS_REFLECTION_COLOR;
+const uint CARRIED_WORDS = HAS_MEDIA ? MEDIA_WORDS : HAS_REFLECTION_COLOR ? TINT_WORDS : 0u;
 const bool HAS_ROUND = HAS_SPHERES || HAS_CONES; // the tree of spheres has something
 const bool HAS_PLACES = HAS_SOFT_LIGHT || HAS_OCCLUSION || HAS_SKY_LIGHT; // shadow rays know where they end
 const bool HAS_SIDES = HAS_MEDIA || HAS_FRESNEL; // surfaces know the indices on both sides

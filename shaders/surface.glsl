@@ -20,6 +20,8 @@ struct surface {
     float exponent;
     bool has_diffuse, has_specular;
     float reflection, refraction;
+    vec3 mirror; // with HAS_REFLECTION_COLOR, and:
+    bool metal;
     REAL index;
     REAL bend;  // with HAS_FOOTPRINT: how fast the normal turns along the surface, positive where it bulges to the viewer
     REAL width; // and how wide the ray's cone is
@@ -88,6 +90,10 @@ void read_material(uint shade, uint body, REAL2 along, paint_spot spot, inout su
     s.refraction = material.refraction;
     if (HAS_FRESNEL)
         s.fresnel = material.fresnel != 0u;
+    if (HAS_REFLECTION_COLOR) {
+        s.mirror = material.mirror;
+        s.metal = material.metal != 0u;
+    }
     if (HAS_ROUGHNESS)
         s.alpha = material.alpha;
     s.body = body;

@@ -115,8 +115,8 @@ void taint(inout path_state p, bool exists, REAL3 v, float throughput) {
 }
 
 // Whether a child ray of this throughput is followed; one cut by depth is, but only sees the background.
-bool is_followed(path_state p, float throughput) {
-    throughput = greatest_part(p, throughput);
+bool is_followed(path_state p, vec3 tint, float throughput) {
+    throughput = greatest_part(tint, throughput);
     bool heavy = throughput > 0.0 && throughput >= frame.min_weight;
     bool last = p.depth == frame.max_depth;
     count_cut(heavy && last, throughput > 0.0 && !heavy, throughput);
@@ -131,12 +131,15 @@ bool send_rays(uint slot, inout path_state p, surface s, ray_start start, ray_st
     if (HAS_COUNTERS && HAS_REFRACTION)
         counted.total_reflections += rays.total ? 1u : 0u;
     float throughput = p.throughput;
-    bool through = HAS_REFRACTION && is_followed(p, throughput * rays.refraction);
-    bool back = (HAS_REFLECTION || HAS_REFRACTION) && is_followed(p, throughput * rays.reflection);
+    vec3 tint = p.tint;
+    if (HAS_REFLECTION_COLOR)
+        tint *= rays.color;
+    bool through = HAS_REFRACTION && is_followed(p, p.tint, throughput * rays.refraction);
+    bool back = (HAS_REFLECTION || HAS_REFRACTION) && is_followed(p, tint, throughput * rays.reflection);
     if (HAS_BRANCHES && back && through)
         push_branch(slot, p, start_through, rays.bent, HAS_FOOTPRINT ? bent_cone(s, p.cone, p.direction, rays.bent) : p.cone,
                     throughput * rays.refraction, p.depth + 1u);
-    if (HAS_MEDIA && HAS_BRANCHES && back && through)
+    if (CARRIES && HAS_BRANCHES && back && through)
         push_media(slot, p, s.after);
     if (HAS_MEDIA && !back)
         p.inside = s.after;
@@ -147,6 +150,8 @@ bool send_rays(uint slot, inout path_state p, surface s, ray_start start, ray_st
         p.start = start_through;
     p.direction = back ? reflected(p.direction, s) : rays.bent;
     p.throughput = throughput * (back ? rays.reflection : rays.refraction);
+    if (HAS_REFLECTION_COLOR)
+        p.tint = back ? tint : p.tint;
     p.kind = back ? RAY_REFLECTED : RAY_REFRACTED;
     if (HAS_POINTS)
         p.key = point_key(p.key, back ? POINT_REFLECTED : POINT_REFRACTED);

@@ -136,11 +136,9 @@ static bool mirrors(const struct surface *s) {
     return s->metal < 0.5 && s->roughness <= MIRRORS_UNTIL && s->mirror > 0;
 }
 
-// For a metal: 0 for grey, 1 for a pure colour. Mirrors have no colour: the matt part shows it.
-static double colorfulness(const struct gltf_material *m) {
-    const double most = fmax(m->base[0], fmax(m->base[1], m->base[2]));
-    const double least = fmin(m->base[0], fmin(m->base[1], m->base[2]));
-    return m->base_texture.node ? 1 : most > 0 ? (most - least) / most : 0;
+// A metal whose colour is an image shows it as a matt surface does: what is mirrored has one colour.
+static bool is_plain_metal(const struct gltf_material *m, const struct surface *s) {
+    return s->metal > 0 && s->clear == 0 && !m->base_texture.node;
 }
 
 static void put_albedo(const struct gltf_material *m, const struct surface *s, double factor,
@@ -148,13 +146,14 @@ static void put_albedo(const struct gltf_material *m, const struct surface *s, d
     struct ir_weights *w = &out->albedo;
     const double shine = s->metal + (1 - s->metal) * s->mirror,
                  alpha = fmax(s->roughness * s->roughness, 0.01);
-    // A rough metal scatters nearly like a matt surface of its colour.
-    const double matt = s->roughness + (1 - s->roughness) * colorfulness(m) / 2;
+    // Of a metal with an image: a rough one scatters nearly like a matt surface of its colour.
+    const bool is_plain = is_plain_metal(m, s);
+    const double matt = is_plain ? 0 : s->roughness + (1 - s->roughness) / 2;
     w->diffuse = factor * ((1 - s->metal) * (1 - s->clear) + s->metal * matt);
-    w->reflection = s->metal * (1 - matt) * (m->base_texture.node ? 1 : luminance(m->base));
+    w->reflection = is_plain ? 1 : s->metal * (1 - matt) * (m->base_texture.node ? 1 : luminance(m->base));
     w->refraction = s->clear;
     // The peak of the microfacet distribution (Walter et al. 2007), and the Phong lobe of the same width.
-    w->specular = s->roughness < 0.9 ? fmin(1, shine / (4 * alpha * alpha)) : 0;
+    w->specular = is_plain || s->roughness < 0.9 ? fmin(1, shine / (4 * alpha * alpha)) : 0;
     if (s->clear > 0 && s->is_thin) {
         w->reflection += s->mirror * s->clear;
         w->refraction *= 1 - s->mirror;
@@ -169,8 +168,20 @@ static void put_albedo(const struct gltf_material *m, const struct surface *s, d
     }
 }
 
+// Straight on, a metal mirrors its own colour and another surface `mirror`; what is between them, both.
+static void put_metal(const struct gltf_material *m, const struct surface *s, bool is_linear,
+                      struct ir_material *out) {
+    double color[3];
+    for (int k = 0; k < 3; k++)
+        color[k] = fmin(s->metal * m->base[k] + (1 - s->metal) * s->mirror, 1);
+    out->metal = true;
+    out->reflection_color = color_of(color, is_linear);
+    write(&out->head, &SCHEMA_MATERIAL, "metal");
+    write(&out->head, &SCHEMA_MATERIAL, "reflection_color");
+}
+
 static void put_fresnel(const struct gltf_material *m, const struct surface *s, struct ir_material *out) {
-    if ((s->clear > 0 && s->is_thin) || (s->clear == 0 && !mirrors(s)))
+    if (is_plain_metal(m, s) || (s->clear > 0 && s->is_thin) || (s->clear == 0 && !mirrors(s)))
         return;
     out->fresnel = true;
     out->refractive_index = fmin(fmax(m->index, 1), 10);
@@ -235,7 +246,7 @@ static void count_losses(struct gltf *gltf, const struct gltf_material *m) {
         gltf_lose(gltf, GLTF_LOSS_OCCLUSION_TEXTURE, m->occlusion_texture.node);
     if (m->transmission_texture)
         gltf_lose(gltf, GLTF_LOSS_TRANSMISSION_TEXTURE, m->transmission_texture);
-    if (m->metallic > 0.5 && m->roughness < 0.9 && colorfulness(m) > 0.05 && !m->metal_texture.node &&
+    if (m->metallic > 0.5 && m->roughness < 0.9 && m->base_texture.node && !m->metal_texture.node &&
         !m->is_unlit)
         gltf_lose(gltf, GLTF_LOSS_METAL_COLOR, m->node);
     if (image_of(gltf, &m->metal_texture) != GLTF_NONE && !m->is_unlit)
@@ -267,6 +278,8 @@ void gltf_to_material(struct gltf *gltf, uint32_t material, struct gltf_wording 
         write(&out->head, &SCHEMA_MATERIAL, "specular_color");
         write(&out->specular_color.head, &SCHEMA_HIGHLIGHT, "color");
     }
+    if (is_plain_metal(m, &surface))
+        put_metal(m, &surface, wording.is_linear, out);
     put_fresnel(m, &surface, out);
     put_roughness(&surface, out);
     put_volume(m, &surface, wording.is_linear, out);

@@ -6,17 +6,24 @@
 #include "core/timeline.h"
 #include "grammar/ir.h"
 #include "grammar/ir_copy.h"
+#include "grammar/preset.h"
 #include "parser/bind/bind.h"
 #include "parser/stages/loader.h"
 #include "parser/tree/reader_text.h"
 
 #include <stdlib.h>
 
+static void take_presets(struct ir_scene *scene) {
+    for (uint32_t i = 0; i < scene->materials.count; i++)
+        preset_take(&scene->materials.items[i]);
+}
+
 // The stages after merging.
 static void run_scene(struct loader *loader) {
     struct parser_output *output = loader->output;
     const double start = clock_seconds();
     override_apply(loader, output->scene);
+    take_presets(output->scene);
     names_resolve(loader, output->scene);
     animate_scene(loader, output->scene);
     merge_compact(loader, output->scene);

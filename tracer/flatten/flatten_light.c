@@ -288,6 +288,7 @@ static uint64_t used_material_features(const struct flattening *f) {
         uint64_t bits = f->scene->materials[i].features;
         // Attenuation only matters inside a body: flatten_media.c.
         bits &= ~(FEATURE_ATTENUATION | FEATURE_TEXTURES | FEATURE_FOOTPRINT);
+        bits &= bits & FEATURE_REFLECTION ? ~UINT64_C(0) : ~FEATURE_REFLECTION_COLOR;
         mask |= bits & FEATURE_DIFFUSE ? bits : bits & ~FEATURE_CHECKER;
         mask |= flatten_paint_features(&f->scene->materials[i]);
     }
@@ -316,7 +317,7 @@ void flatten_features(struct flattening *f) {
                          FEATURE_BACKGROUND_IMAGE | FEATURE_MEDIA | FEATURE_ATTENUATION | FEATURE_TEXTURES |
                          FEATURE_FOOTPRINT | FEATURE_SOFT_LIGHT | FEATURE_AMBIENT | FEATURE_OCCLUSION |
                          FEATURE_EMISSION | FEATURE_SKY_LIGHT | FEATURE_SEEN_LIGHT | FEATURE_CONES |
-                         FEATURE_TURNED;
+                         FEATURE_TURNED | FEATURE_REFLECTION_COLOR;
     struct flat_scene *out = f->out;
     uint64_t mask = ir_features(f->scene->ir) & FEATURE_SCENE_MASK & ~own;
     mask |= out->triangle_count ? FEATURE_TRIANGLES : 0;

@@ -76,11 +76,13 @@ static uint64_t slot_state_bytes(const struct renderer *renderer) {
                              ? LONG_RAY_WORDS + (renderer_stack_levels(renderer) + 1) / 2
                              : 0;
     const uint64_t low = renderer->features & FEATURE_MANY_LIGHTS ? 1 : 0;
-    const uint64_t media = renderer->features & FEATURE_MEDIA ? MEDIA_WORDS : 0;
+    const uint64_t carried = renderer->features & FEATURE_MEDIA              ? MEDIA_WORDS
+                             : renderer->features & FEATURE_REFLECTION_COLOR ? TINT_WORDS
+                                                                             : 0;
     const uint64_t shine = renderer->features & FEATURE_CLEAR_SHADOWS ? SHINE_WORDS : 0;
     const uint64_t cone = renderer->features & FEATURE_FOOTPRINT ? 1 : 0;
     const uint64_t key = renderer->features & FEATURE_POINTS ? KEY_WORDS : 0;
-    const uint64_t more = media + cone + key;
+    const uint64_t more = carried + cone + key;
     return (state + low + shine + more + ray + renderer->path_stack * (entry + more)) * WORD_BYTES;
 }
 

@@ -28,7 +28,7 @@ struct node {
     struct render_segment segment;
     struct gpu_word ray[LOG_RAY_WORDS];
     float throughput, radiance[3];
-    float tint[3];        // what attenuation has left of each channel
+    float tint[3];        // what attenuation and coloured mirrors have left of each channel
     uint32_t key;         // of its points, as the device reports it
     uint32_t children[2]; // mirrored, refracted; NO_NODE: none
 };
@@ -162,12 +162,14 @@ static struct node *put_child(struct walk *walk, uint32_t parent, enum render_ra
 }
 
 // Adds the rays that leave a surface, as the tracer's is_followed and send_rays decide.
-static void add_child(struct walk *walk, uint32_t parent, enum render_ray kind, float share,
+static void add_child(struct walk *walk, uint32_t parent, enum render_ray kind, float share, vec3 color,
                       const struct gpu_word *ray, const struct gpu_word inside[2]) {
     const struct render_settings *settings = &walk->renderer->settings;
     const struct node *from = &walk->nodes[parent];
     const float throughput = from->throughput * share;
-    const float part = throughput * fmaxf(from->tint[0], fmaxf(from->tint[1], from->tint[2]));
+    const float tint[3] = {from->tint[0] * (float)color.x, from->tint[1] * (float)color.y,
+                           from->tint[2] * (float)color.z};
+    const float part = throughput * fmaxf(tint[0], fmaxf(tint[1], tint[2]));
     const bool heavy = part > 0 && part >= (float)settings->min_weight;
     const bool last = from->segment.depth == settings->max_depth;
     if (part > 0 && (!heavy || last))
@@ -177,6 +179,7 @@ static void add_child(struct walk *walk, uint32_t parent, enum render_ray kind, 
     struct node *child = put_child(walk, parent, kind, ray, inside);
     if (!child)
         return;
+    memcpy(child->tint, tint, sizeof tint);
     child->throughput = throughput;
     child->segment.depth = from->segment.depth + 1;
     child->ray[1].z = last ? LOG_BLIND : 0;
@@ -221,10 +224,12 @@ static void take_surface(struct walk *walk, uint32_t index, const struct gpu_wor
         pass(walk, index, told);
         return;
     }
-    add_child(walk, index, RENDER_RAY_REFLECTED, float_of_bits(told[5].z), told + LOG_REFLECTED,
+    const vec3 color = {float_of_bits(told[LOG_COLOR].x), float_of_bits(told[LOG_COLOR].y),
+                        float_of_bits(told[LOG_COLOR].z)};
+    add_child(walk, index, RENDER_RAY_REFLECTED, float_of_bits(told[5].z), color, told + LOG_REFLECTED,
               walk->nodes[index].ray + LOG_INSIDE);
-    add_child(walk, index, RENDER_RAY_REFRACTED, float_of_bits(told[5].w), told + LOG_REFRACTED,
-              told + LOG_AFTER);
+    add_child(walk, index, RENDER_RAY_REFRACTED, float_of_bits(told[5].w), (vec3){1, 1, 1},
+              told + LOG_REFRACTED, told + LOG_AFTER);
 }
 
 // For a ray that hits nothing, what it sees: a light, or the background.
