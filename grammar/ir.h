@@ -57,6 +57,10 @@ enum ir_backdrop {
     IR_BACKDROP_COLOR,
     IR_BACKDROP_IMAGE
 };
+enum ir_aim {
+    IR_AIM_LOOK_AT,
+    IR_AIM_DIRECTION
+};
 enum ir_light_kind {
     IR_LIGHT_POSITION,
     IR_LIGHT_DIRECTION,
@@ -180,6 +184,15 @@ struct ir_panel {
     vec3 corner, edge_u, edge_v;
 };
 
+// The cone that a light shines into.
+struct ir_spot {
+    struct ir_head head;
+    unsigned aim; // ir_aim
+    vec3 direction, look_at;
+    double angle;    // across, degrees
+    double softness; // share of the way from the axis to the edge on which the light fades
+};
+
 struct ir_light {
     struct ir_head head;
     str name;
@@ -192,8 +205,9 @@ struct ir_light {
     double angle;  // for one with a direction: diameter of its disc in degrees; 0: a point
     double intensity;
     struct ir_color color;
-    unsigned falloff; // ir_falloff
-    bool visible;     // for a light with extent: whether camera, mirrors and glass see it
+    unsigned falloff;    // ir_falloff
+    struct ir_spot spot; // where the light has one written
+    bool visible;        // for a light with extent: whether camera, mirrors and glass see it
 };
 
 struct ir_checker {
@@ -229,7 +243,7 @@ struct ir_highlight {
 
 struct ir_material {
     struct ir_head head;
-    str name; // empty: anonymous, written inline where it is used
+    str name;        // empty: anonymous, written inline where it is used
     unsigned preset; // 0: none; else the row of presets.def that it takes its values from, counted from 1
     struct ir_weights albedo;
     struct ir_paint diffuse_color;

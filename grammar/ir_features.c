@@ -170,7 +170,10 @@ static void walk_element(struct feature_walk *w, const struct schema_element *sc
         if (!ir_walk_taken(schema, row, element))
             continue;
         const void *field = schema_field_const(row, element);
-        if (row->feature && is_on(row, element))
+        // Of an element that has a place of its own in its parent, whether it is written.
+        const bool is_there =
+            row->kind != SCHEMA_ELEMENT || row->choice || ir_walk_written(schema, i, element);
+        if (row->feature && is_there && is_on(row, element))
             switch_on(w, row->feature, &(struct feature_use){.schema = schema, .element = element, .row = i});
         if (row->kind == SCHEMA_WEIGHTS)
             walk_weights(w, schema, i, element);

@@ -202,6 +202,24 @@ static const struct schema_row panel_rows[] = {
 const struct schema_element SCHEMA_PANEL = {
     ELEMENT("panel", "Panel", ir_panel, panel_rows, "The rectangle of a light, which shines on one side.")};
 
+static const struct schema_row spot_rows[] = {
+    {.name = "look_at", .element = "LookAt", FIELD(ir_spot, look_at), .example = "0 1 0",
+     .also = "target point_at", .unit = SCHEMA_UNIT_SCENE, .range = SCHEMA_RANGE_COORDINATE, .choice = 1,
+     .alternative = IR_AIM_LOOK_AT, .doc = "A point that the middle of the light meets."},
+    {.name = "direction", .element = "Direction", FIELD(ir_spot, direction), .example = "0 -1 0",
+     .also = "axis dir", .range = SCHEMA_RANGE_COORDINATE, .choice = 1, .alternative = IR_AIM_DIRECTION,
+     .doc = "The direction in which the middle of the light travels; any length except 0."},
+    {.name = "angle", FIELD(ir_spot, angle), .example = "60", .unit = SCHEMA_UNIT_DEGREES,
+     .also = "cone_angle beam_angle outer_angle size cutoff", .range = SCHEMA_RANGE_OPENING, .standard = "45",
+     .doc = "How wide the light is: from edge to edge of its cone."},
+    {.name = "softness", FIELD(ir_spot, softness), .example = "0.5", .range = SCHEMA_RANGE_FRACTION,
+     .also = "blend penumbra falloff inner_angle", .standard = "0.15",
+     .doc = "Share of the way from the middle to the edge on which the light fades; 0 is a sharp edge."},
+};
+const struct schema_element SCHEMA_SPOT = {
+    ELEMENT("spot", "Spot", ir_spot, spot_rows, "The cone that a light with a position shines into."),
+    .choices = {{SCHEMA_CHOICE_EXACTLY_ONE, offsetof(struct ir_spot, aim)}}};
+
 static const struct schema_row light_rows[] = {
     BODY_NAME(ir_light, "sun"),
     COPIES(ir_light),
@@ -224,6 +242,9 @@ static const struct schema_row light_rows[] = {
      .also = "angular_diameter sun_size",
      .range = SCHEMA_RANGE_OPENING, .standard = "0", .feature = FEATURE_SOFT_LIGHT,
      .doc = "Angle that a light with a direction measures across: a disc in the sky, with soft shadows; 0 is a point, the sun has 0.53."},
+    {.name = "spot", .element = "Spot", FIELD(ir_light, spot), .child = &SCHEMA_SPOT, .feature = FEATURE_SPOT,
+     .also = "spotlight spot_light cone beam",
+     .doc = "The cone that a light with a position shines into; without it the light goes everywhere."},
     {.name = "visible", FIELD(ir_light, visible), .standard = "false", .feature = FEATURE_SEEN_LIGHT,
      .also = "camera_visible",
      .doc = "Whether camera, mirrors and glass show the light itself, if it has a radius, an angle or a rectangle."},

@@ -28,6 +28,7 @@
         struct ir_background: SCHEMA_ELEMENT,                                                                \
         struct ir_ambient: SCHEMA_ELEMENT,                                                                   \
         struct ir_panel: SCHEMA_ELEMENT,                                                                     \
+        struct ir_spot: SCHEMA_ELEMENT,                                                                      \
         struct ir_paint: SCHEMA_ELEMENT,                                                                     \
         struct ir_checker: SCHEMA_ELEMENT,                                                                   \
         struct ir_texture: SCHEMA_ELEMENT,                                                                   \

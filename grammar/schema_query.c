@@ -63,6 +63,7 @@ const struct schema_element *const schema_elements[] = {
     &SCHEMA_AMBIENT,
     &SCHEMA_LIGHT,
     &SCHEMA_PANEL,
+    &SCHEMA_SPOT,
     &SCHEMA_MATERIAL,
     &SCHEMA_PAINT,
     &SCHEMA_CHECKER,

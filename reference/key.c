@@ -11,7 +11,7 @@
 // Sizes are for 64 bits.
 static_assert(sizeof(void *) != 8 || sizeof(struct view_camera) == 16 + 4 * sizeof(vec3) + 6 * 8,
               "hash the new field of a camera");
-static_assert(sizeof(void *) != 8 || sizeof(struct view_light) == 6 * 8 + 7 * sizeof(vec3) + 8,
+static_assert(sizeof(void *) != 8 || sizeof(struct view_light) == 9 * 8 + 8 * sizeof(vec3) + 8,
               "hash the new field of a light");
 
 static void add_view(struct hash128 *h, const struct view *view) {
@@ -44,6 +44,10 @@ static void add_view(struct hash128 *h, const struct view *view) {
         hash128_vector(h, light->outward);
         hash128_whole(h, view_light_is_seen(light));
         hash128_vector(h, light->radiance);
+        hash128_whole(h, light->spot);
+        hash128_vector(h, light->axis);
+        hash128_number(h, light->open);
+        hash128_number(h, light->rate);
     }
 }
 

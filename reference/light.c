@@ -90,6 +90,13 @@ static struct spot spot_of(const struct reference *r, const struct view_light *l
     return spot;
 }
 
+// The share of a spot light's emission that it sends against `l`, the direction to it.
+static double beam_share(const struct view_light *light, vec3 l) {
+    const vec3 off = vec3_add(l, light->axis);
+    const double share = fmin(fmax((light->open - vec3_dot(off, off) / 2) * light->rate, 0), 1);
+    return light->spot ? share * share : 1;
+}
+
 // What the light adds where nothing blocks it.
 static vec3 unshadowed(const struct reference *r, const struct view_light *light, const struct spot *spot,
                        const struct surface *s, vec3 direction) {
@@ -104,7 +111,7 @@ static vec3 unshadowed(const struct reference *r, const struct view_light *light
         value = vec3_add(
             value, vec3_mul(s->specular, highlight(0.5 * vec3_dot(gap, gap), s->is->specular_exponent)));
     }
-    vec3 emission = vec3_mul(light->emission, spot->share);
+    vec3 emission = vec3_mul(light->emission, spot->share * beam_share(light, l));
     if (light->inverse_square) {
         const vec3 middle = reference_stored3(r, vec3_sub(light->position, r->origin));
         double distance = vec3_length(vec3_sub(middle, s->point));

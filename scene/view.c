@@ -3,6 +3,7 @@
 
 #include "core/angle.h"
 #include "grammar/ir.h"
+#include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 #include "scene/shape.h"
 #include "scene/transform.h"
@@ -113,6 +114,9 @@ static struct view_camera automatic_camera(const struct scene *scene, int32_t wi
 
 // ---- lights
 
+// A float has room for it; an edge that is narrower is as sharp.
+#define RATE_MOST 1e30
+
 static void put_extent(struct view_light *light, const struct ir_light *ir) {
     const struct ir_panel *panel = &ir->rectangle;
     if (ir->kind == IR_LIGHT_RECTANGLE) {
@@ -128,6 +132,25 @@ static void put_extent(struct view_light *light, const struct ir_light *ir) {
         light->extent = VIEW_DISC;
         light->half_angle = ir->angle / 2 * RADIANS;
     }
+}
+
+// 1 - the cosine of an angle.
+static double versine(double angle) {
+    return 2 * sin(angle / 2) * sin(angle / 2);
+}
+
+// The square of a ramp between two cosines, as in KHR_lights_punctual.
+static void put_spot(struct view_light *light, const struct ir_light *ir) {
+    const struct ir_spot *spot = &ir->spot;
+    const uint32_t row = (uint32_t)schema_find_row(&SCHEMA_LIGHT, STR("spot"));
+    light->spot = ir->kind == IR_LIGHT_POSITION && ir_walk_written(&SCHEMA_LIGHT, row, ir);
+    if (!light->spot)
+        return;
+    const double edge = spot->angle / 2 * RADIANS;
+    light->axis = spot->aim == IR_AIM_DIRECTION ? spot->direction : vec3_sub(spot->look_at, ir->position);
+    light->axis = vec3_unit(light->axis);
+    light->open = versine(edge);
+    light->rate = fmin(1 / (light->open - versine(edge * (1 - spot->softness))), RATE_MOST);
 }
 
 // The radiance that gives this emission on a surface facing the light, over pi (docs/language.md, "Lights
@@ -151,6 +174,7 @@ static void take_place(struct view_light *light, const affine3 *place) {
         return;
     }
     light->position = affine3_apply(*place, light->position);
+    light->axis = vec3_unit(mat3_apply(place->linear, light->axis));
     light->radius *= vec3_length(mat3_column(place->linear, 0));
     if (light->extent != VIEW_PANEL)
         return;
@@ -171,6 +195,7 @@ static struct view_light written_light(const struct ir_light *ir, uint32_t index
         light.position = ir->position;
     light.inverse_square = !light.directional && ir->falloff == IR_FALLOFF_INVERSE_SQUARE;
     put_extent(&light, ir);
+    put_spot(&light, ir);
     light.seen = ir->visible;
     return light;
 }

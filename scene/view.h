@@ -44,6 +44,11 @@ struct view_light {
     bool seen;     // also seen by rays; a body that has exactly its surface is seen instead
     vec3 radiance; // how bright a seen light looks: linear
     bool inverse_square;
+    // Full light where (open - v) * rate is 1 or more, none from 0 down, with v = 1 - the cosine to `axis`;
+    // between them the square.
+    bool spot;
+    vec3 axis; // unit, the way its light goes
+    double open, rate;
     bool automatic;
     uint32_t index; // in scene.lights; IR_NO_INDEX where automatic
 };

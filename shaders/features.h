@@ -45,8 +45,9 @@
     ROW(SEEN_LIGHT, seen_light)                                                                              \
     ROW(CONES, cones)                                                                                        \
     ROW(TURNED, turned)                                                                                      \
-    ROW(REFLECTION_COLOR, reflection_color)
-#define FEATURE_COUNT 36
+    ROW(REFLECTION_COLOR, reflection_color)                                                                  \
+    ROW(SPOT, spot)
+#define FEATURE_COUNT 37
 
 #ifdef __STDC_VERSION__
 #include <stdint.h>
@@ -93,6 +94,7 @@
 #define FEATURE_CONES            FEATURE_SECOND(1) /* cylinders and cones */
 #define FEATURE_TURNED           FEATURE_SECOND(2) /* spheres whose images are turned */
 #define FEATURE_REFLECTION_COLOR FEATURE_SECOND(3) /* mirrors with a colour of their own, and metals */
+#define FEATURE_SPOT             FEATURE_SECOND(4) /* a light that shines into a cone */
 /* With any of them something with extent is sampled: rays have keys (light/points.h). */
 #define FEATURE_POINTS                                                                                       \
     (FEATURE_SOFT_LIGHT | FEATURE_OCCLUSION | FEATURE_ROUGHNESS | FEATURE_CAMERA | FEATURE_SKY_LIGHT)

@@ -129,6 +129,7 @@
 #define LIGHT_INVERSE_SQUARE 2u
 #define LIGHT_EXTENT         4u /* a sphere; with LIGHT_DIRECTIONAL a disc, with LIGHT_PANEL a panel */
 #define LIGHT_PANEL          8u
+#define LIGHT_SPOT           16u /* it shines into a cone */
 
 /* A background that lights: where a sample looks (scene/sky.h), four numbers to a word of LIGHTS, from the
    frame's sky_table on. */

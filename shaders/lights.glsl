@@ -19,6 +19,13 @@ exact_aim aim_at(uint index, light_ray ray) {
     return exact_aim(ray.direction, !directional, light.place);
 }
 
+// The share of a spot light's emission that leaves it towards a surface; `l`: unit, from there to the light.
+float beam_share(light_record light, REAL3 l) {
+    REAL3 off = l + light.axis;
+    float share = clamp(float(light.open - 0.5 * dot3(off, off)) * light.rate, 0.0, 1.0);
+    return share * share;
+}
+
 light_ray lamp_at(uint index, surface s, REAL3 start, REAL3 direction, uint key) {
     light_record light = load_light(index);
     vec3 emission = light.emission;
@@ -41,6 +48,8 @@ light_ray lamp_at(uint index, surface s, REAL3 start, REAL3 direction, uint key)
         l = spot.l;
         emission *= float(spot.share);
     }
+    if (HAS_SPOT)
+        emission *= (light.flags & LIGHT_SPOT) != 0u && !sky ? beam_share(light, l) : 1.0;
     REAL facing = dot3(s.shading, l);
     bool lit = facing > 0.0 && dot3(s.geometric, l) > 0.0 && (directional || distance2 > 0.0);
     vec3 diffuse = vec3(0.0), specular = vec3(0.0);

@@ -187,12 +187,17 @@
     REAL3(row_u, 1, 1)                                                                                       \
     REAL3(row_v, 2, 3)
 
-#define LIGHT_WORDS   2
-#define LIGHT64_WORDS 3
+/* A spot light gives full light where `open` - (1 - cosine to its axis) times `rate` is 1 or more, and none
+   from 0 down. */
+#define LIGHT_WORDS   3
+#define LIGHT64_WORDS 5
 #define LIGHT_FIELDS(REAL3, REAL, FLOAT3, FLOAT, UINT)                                                       \
     REAL3(place, 0, 0)                                                                                       \
     UINT(flags, 0, w, 1, z)                                                                                  \
-    FLOAT3(emission, 1, 2)
+    FLOAT3(emission, 1, 2)                                                                                   \
+    FLOAT(rate, 1, w, 2, w)                                                                                  \
+    REAL3(axis, 2, 3) /* unit, the way its light goes */                                                     \
+    REAL(open, 2, w, 4, zw)
 
 /* Of a light with extent, each light having one after all the words of LIGHT; in scenes that have such a
  * light. */

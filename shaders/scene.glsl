@@ -55,6 +55,7 @@ const bool HAS_SKY_LIGHT = (FEATURES & FEATURE_SKY_LIGHT) != 0u;
 const bool HAS_SEEN_LIGHT = (MORE_FEATURES & FEATURE_SEEN_LIGHT.y) != 0u;
 const bool HAS_CONES = (MORE_FEATURES & FEATURE_CONES.y) != 0u;
 const bool HAS_TURNED = (MORE_FEATURES & FEATURE_TURNED.y) != 0u;
+const bool HAS_SPOT = (MORE_FEATURES & FEATURE_SPOT.y) != 0u;
 const bool HAS_REFLECTION_COLOR = (MORE_FEATURES & FEATURE_REFLECTION_COLOR.y) != 0u;
 const bool HAS_TINT = HAS_ATTENUATION || HAS_REFLECTION_COLOR; // the channels of a path are weakened apart
 // What a path and its waiting rays carry with them.

@@ -286,9 +286,34 @@ static void check_extent(const struct rules *rules, const struct ir_light *light
     }
 }
 
+static void check_spot(const struct rules *rules, const struct ir_light *light) {
+    const struct schema_element *schema = &SCHEMA_LIGHT;
+    const struct ir_spot *spot = &light->spot;
+    if (!is_written(schema, light, "spot") || is_poisoned(schema, light, "spot"))
+        return;
+    if (light->kind != IR_LIGHT_POSITION) {
+        const char *kind = light->kind == IR_LIGHT_DIRECTION ? "direction" : "rectangle";
+        diag_add(rules->sink, DIAG_EXTENT_KIND, ir_place_key(rules->origin, &light->head, schema, "spot"),
+                 "'spot' is the cone of a light with a position; %.*s has a '%s'",
+                 STR_ARG(owner(rules, schema, light->name)), kind);
+        diag_note(rules->sink, ir_place_key(rules->origin, &light->head, schema, kind), "'%s' is here", kind);
+        diag_help(rules->sink, "write 'position', or remove 'spot'");
+    } else if (spot->aim == IR_AIM_DIRECTION) {
+        check_direction(rules, &SCHEMA_SPOT, spot, light->name, "direction", spot->direction);
+    } else if (!is_poisoned(&SCHEMA_SPOT, spot, "look_at") && !is_poisoned(schema, light, "position") &&
+               is_written(&SCHEMA_SPOT, spot, "look_at") &&
+               vec3_is_zero(vec3_sub(spot->look_at, light->position))) {
+        diag_add(rules->sink, DIAG_ZERO_DIRECTION, value_place(rules, &SCHEMA_SPOT, spot, "look_at"),
+                 "%.*s looks at its own position, which points nowhere",
+                 STR_ARG(owner(rules, schema, light->name)));
+        diag_note(rules->sink, value_place(rules, schema, light, "position"), "'position' is here");
+    }
+}
+
 static void check_light(const struct rules *rules, const struct ir_light *light) {
     const struct schema_element *schema = &SCHEMA_LIGHT;
     check_extent(rules, light);
+    check_spot(rules, light);
     if (light->kind == IR_LIGHT_RECTANGLE)
         check_panel(rules, light);
     if (light->kind != IR_LIGHT_DIRECTION)

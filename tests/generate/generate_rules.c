@@ -109,7 +109,12 @@ static void mend_extent(struct ir_light *light) {
     if (light->kind != IR_LIGHT_POSITION) {
         light->radius = 0;
         forget_row(&SCHEMA_LIGHT, light, "radius");
+        forget_row(&SCHEMA_LIGHT, light, "spot");
     }
+    if (vec3_is_zero(light->spot.direction))
+        light->spot.direction = (vec3){0, -1, 0};
+    if (vec3_is_zero(vec3_sub(light->spot.look_at, light->position)))
+        light->spot.look_at.y -= 1;
     if (light->kind != IR_LIGHT_DIRECTION) {
         light->angle = 0;
         forget_row(&SCHEMA_LIGHT, light, "angle");
@@ -200,6 +205,8 @@ static void frame_light(struct ir_light *light) {
     if (light->kind == IR_LIGHT_POSITION)
         light->position = vec3_add(vec3_mul(light->position, 4), (vec3){0, 12, 8});
     light->position = rounded(light->position);
+    light->spot.look_at = (vec3){0, 0.5, 0}; // at the bodies, from above them
+    light->spot.direction = (vec3){-light->position.x, -light->position.y, -light->position.z};
     // A panel above the bodies, which shines down.
     if (light->kind == IR_LIGHT_RECTANGLE)
         light->rectangle = (struct ir_panel){.head = light->rectangle.head,

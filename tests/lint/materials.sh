@@ -51,8 +51,8 @@ tests() { # made anew with the rooms that know the list: prints what they say of
 {
     add_field MEDIUM MATERIAL 'ir->roughness'
     [ "$(lacks)" = tracer/flatten/flatten_light.c ] || echo "scene/material_fields.h:1: a new field stops $(lacks | tr '\n' ' ')"
-    sed -e 's/FLOAT(alpha, 5, w, 6, w)/FLOAT(sheen, 6, x, 7, x) &/' -e 's/^\(#define MATERIAL_WORDS *\)6/\17/' \
-        -e 's/^\(#define MATERIAL64_WORDS *\)7/\18/' shaders/records.h >"$work/shaders/records.h"
+    sed -e 's/FLOAT(alpha, 5, w, 6, w)/FLOAT(sheen, 7, x, 8, x) &/' -e 's/^\(#define MATERIAL_WORDS *\)7/\18/' \
+        -e 's/^\(#define MATERIAL64_WORDS *\)8/\19/' shaders/records.h >"$work/shaders/records.h"
     lacks | sed 's|$|:1: does not compile with a new field of a material|'
     tests | sed 's|^|scene/material_fields.h:1: a new field is not packed, compared and filled: |'
     add_field MEDIUM APART 'ir->roughness'

@@ -73,6 +73,9 @@ static struct gpu_light light_record(const struct flattening *f, const struct vi
     const double factor = f->factor * nearer(f, light);
     vec3 position = vec3_mul(from_origin, factor);
     struct gpu_light record = {.place = position, .flags = LIGHT_DIRECTIONAL, .emission = light->emission};
+    record.axis = light->axis;
+    record.open = light->open;
+    record.rate = light->rate;
     if (light->directional) {
         record.place = light->to_light;
     } else if (vec3_length(position) > LIGHT_DISTANCE_MAX && light->extent == VIEW_POINT) {
@@ -87,6 +90,7 @@ static struct gpu_light light_record(const struct flattening *f, const struct vi
     }
     if (light->extent != VIEW_POINT)
         record.flags |= LIGHT_EXTENT | (light->extent == VIEW_PANEL ? LIGHT_PANEL : 0);
+    record.flags |= light->spot ? LIGHT_SPOT : 0;
     record.emission = (vec3){emission_bound(record.emission.x), emission_bound(record.emission.y),
                              emission_bound(record.emission.z)};
     return record;
@@ -200,6 +204,7 @@ enum flatten_fault flatten_lights(struct flattening *f) {
         f->light_features |= record.flags & LIGHT_DIRECTIONAL ? FEATURE_DIRECTION_LIGHT : FEATURE_POINT_LIGHT;
         f->light_features |= record.flags & LIGHT_INVERSE_SQUARE ? FEATURE_INVERSE_SQUARE : 0;
         f->light_features |= record.flags & LIGHT_EXTENT ? FEATURE_SOFT_LIGHT : 0;
+        f->light_features |= record.flags & LIGHT_SPOT ? FEATURE_SPOT : 0;
         gpu_pack_light(&record, f->out->is_double, f->out->lights.words + (size_t)f->out->strides.light * i);
         if (!extent_words)
             continue;
@@ -317,7 +322,7 @@ void flatten_features(struct flattening *f) {
                          FEATURE_BACKGROUND_IMAGE | FEATURE_MEDIA | FEATURE_ATTENUATION | FEATURE_TEXTURES |
                          FEATURE_FOOTPRINT | FEATURE_SOFT_LIGHT | FEATURE_AMBIENT | FEATURE_OCCLUSION |
                          FEATURE_EMISSION | FEATURE_SKY_LIGHT | FEATURE_SEEN_LIGHT | FEATURE_CONES |
-                         FEATURE_TURNED | FEATURE_REFLECTION_COLOR;
+                         FEATURE_TURNED | FEATURE_REFLECTION_COLOR | FEATURE_SPOT;
     struct flat_scene *out = f->out;
     uint64_t mask = ir_features(f->scene->ir) & FEATURE_SCENE_MASK & ~own;
     mask |= out->triangle_count ? FEATURE_TRIANGLES : 0;

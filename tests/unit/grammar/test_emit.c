@@ -215,7 +215,7 @@ static void test_every_row_is_explained(void **state) {
     assert_explained("lights[0].position.x", "light.position");
     assert_explained("albedo.diffuse", "material.albedo");
     assert_explained("sphere.Radius", "sphere.radius");
-    assert_explained("lookat", "camera.look_at");
+    assert_explained("camera.lookat", "camera.look_at");
     assert_explained("ior", "material.refractive_index");
     assert_explained("paint", "XML: <DiffuseColor>");
     assert_explained("area-light", "has soft shadows");

@@ -27,7 +27,7 @@ static const struct {
     {&SCHEMA_VARIABLE, "ir_variable"}, {&SCHEMA_INCLUDE, "ir_include"},
     {&SCHEMA_IMAGE, "ir_image"}, {&SCHEMA_TRACE, "ir_trace"},
     {&SCHEMA_CAMERA, "ir_camera"}, {&SCHEMA_BACKGROUND, "ir_background"},
-    {&SCHEMA_LIGHT, "ir_light"}, {&SCHEMA_PANEL, "ir_panel"},
+    {&SCHEMA_LIGHT, "ir_light"}, {&SCHEMA_PANEL, "ir_panel"}, {&SCHEMA_SPOT, "ir_spot"},
     {&SCHEMA_AMBIENT, "ir_ambient"}, {&SCHEMA_MATERIAL, "ir_material"},
     {&SCHEMA_PAINT, "ir_paint"}, {&SCHEMA_CHECKER, "ir_checker"},
     {&SCHEMA_TEXTURE, "ir_texture"}, {&SCHEMA_HIGHLIGHT, "ir_highlight"},

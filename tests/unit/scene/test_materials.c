@@ -2,6 +2,7 @@
 // hash, and each field is changed by a row.
 #include "grammar/ir.h"
 #include "grammar/ir_walk.h"
+#include "grammar/preset.h"
 #include "grammar/schema.h"
 #include "scene/content.h"
 
@@ -47,7 +48,10 @@ struct bench {
 
 static void build(struct bench *b, struct scene *scene, uint64_t key[2]) {
     struct hash128 h;
+    const struct ir_material written = b->material;
+    preset_take(&b->material);
     scene_build(&b->ir, &b->assets, &b->arena, scene);
+    b->material = written;
     hash128_begin(&h);
     scene_content(&h, scene);
     hash128_end(&h, key);

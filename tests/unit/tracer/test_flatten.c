@@ -386,11 +386,11 @@ static void test_lights(void **state) {
     const struct gpu_word *words = flat.lights.words;
     assert_vec3(word_vec3(&words[0]), 1, 2, -0.5);
     assert_int_equal(words[0].w, 0);
-    assert_int_equal(words[2].w, LIGHT_INVERSE_SQUARE);
-    assert_vec3(word_vec3(&words[3]), 1.0 / 64, 1.0 / 64, 1.0 / 64);
-    assert_int_equal(words[4].w, LIGHT_DIRECTIONAL);
-    assert_vec3(word_vec3(&words[4]), 0.6f, 0.8f, 0);
-    assert_true(fabs(kit_float(words[5].z) / (4e30 / 25e30) - 1) < 1e-6);
+    assert_int_equal(words[3].w, LIGHT_INVERSE_SQUARE);
+    assert_vec3(word_vec3(&words[4]), 1.0 / 64, 1.0 / 64, 1.0 / 64);
+    assert_int_equal(words[6].w, LIGHT_DIRECTIONAL);
+    assert_vec3(word_vec3(&words[6]), 0.6f, 0.8f, 0);
+    assert_true(fabs(kit_float(words[7].z) / (4e30 / 25e30) - 1) < 1e-6);
     assert_int_equal(flat.features & (FEATURE_POINT_LIGHT | FEATURE_DIRECTION_LIGHT | FEATURE_INVERSE_SQUARE),
                      FEATURE_POINT_LIGHT | FEATURE_DIRECTION_LIGHT | FEATURE_INVERSE_SQUARE);
     flat_finish(&flat);
