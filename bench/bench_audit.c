@@ -112,7 +112,7 @@ static double true_share(struct taken *t) {
     const struct reference_settings settings =
         reference_settings_of(t->session.scene, t->session.image, &t->session.options.limits, true);
     const size_t pixels = (size_t)t->image.width * t->image.height;
-    const struct image_display display = {t->session.image->tone, t->session.image->transfer};
+    const struct image_display display = image_display_of(t->session.image);
     struct reference *reference = reference_create(&input);
     double *exact = malloc(3 * pixels * sizeof *exact);
     double share = -1;

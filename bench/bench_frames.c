@@ -85,7 +85,7 @@ static bool fight(const struct bench *bench, struct duel *duel) {
 
 static void print_duel(const struct bench_scene *scene, const struct duel *duel,
                        const struct render_settings *settings) {
-    const struct image_display display = {scene->session.image->tone, scene->session.image->transfer};
+    const struct image_display display = image_display_of(scene->session.image);
     const double glint = bench_median(duel->times.wall, duel->times.count);
     print_head(scene->path);
     print_row(settings, "the original's method", &duel->original_times, glint);

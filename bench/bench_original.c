@@ -114,7 +114,7 @@ static bool show(const struct options *o, struct gpu *gpu, const struct bench_sc
         fprintf(stderr, "%s: %s\n", o->scene, error);
         return false;
     }
-    const struct image_display display = {scene->session.image->tone, scene->session.image->transfer};
+    const struct image_display display = image_display_of(scene->session.image);
     bool done = take_frames(o, original, image, &series, &cut);
     if (done) {
         bench_print_machine(gpu);

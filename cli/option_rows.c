@@ -20,7 +20,11 @@ static const struct option_word colors[] = {
     {"auto", CLI_COLOR_AUTO}, {"always", CLI_COLOR_ALWAYS}, {"never", CLI_COLOR_NEVER}, {0}};
 static const struct option_word spaces[] = {
     {"auto", CLI_SPACE_AUTO}, {"displayed", CLI_SPACE_DISPLAYED}, {"linear", CLI_SPACE_LINEAR}, {0}};
-static const struct option_word tones[] = {{"clip", IR_TONE_CLIP}, {"normalize", IR_TONE_NORMALIZE}, {0}};
+static const struct option_word tones[] = {{"clip", IR_TONE_CLIP},
+                                           {"normalize", IR_TONE_NORMALIZE},
+                                           {"neutral", IR_TONE_NEUTRAL},
+                                           {"filmic", IR_TONE_FILMIC},
+                                           {0}};
 static const struct option_word transfers[] = {{"none", IR_TRANSFER_NONE}, {"srgb", IR_TRANSFER_SRGB}, {0}};
 static const struct option_word maps[] = {{"difference", false}, {"flip", true}, {0}};
 
@@ -257,7 +261,7 @@ const struct option_row option_rows[] = {
      NUMBER(measure.pixels_per_degree, 1, 1000)},
     {"space", 0, "KIND", "compare", "auto, displayed or linear: the values that are compared",
      WORD(measure.space, spaces)},
-    {"tone", 0, "KIND", "compare", "clip or normalize: how float pictures are displayed",
+    {"tone", 0, "KIND", "compare", "clip, normalize, neutral or filmic: how float pictures are displayed",
      WORD(measure.display.tone, tones), GIVEN(measure.has_display)},
     {"transfer", 0, "KIND", "compare", "none or srgb: how float pictures are displayed",
      WORD(measure.display.transfer, transfers), GIVEN(measure.has_display)},

@@ -119,6 +119,7 @@ struct ir_image {
     int32_t samples;       // per pixel; at most, with `error`
     double error;          // standard error of a displayed colour at which a pixel ends; 0: none
     int32_t min_samples;   // before it may end
+    double exposure;       // stops
     unsigned tone;         // ir_tone
     unsigned transfer;     // ir_transfer
 };

@@ -52,7 +52,9 @@ struct ir_reference {
 // How a picture is displayed: words of the image element, known to pictures without a scene too.
 enum ir_tone {
     IR_TONE_CLIP,
-    IR_TONE_NORMALIZE
+    IR_TONE_NORMALIZE,
+    IR_TONE_NEUTRAL,
+    IR_TONE_FILMIC
 };
 enum ir_transfer {
     IR_TRANSFER_NONE,

@@ -6,10 +6,11 @@
 #include "picture/formats/formats.h"
 #include "shaders/features.h"
 
-static const char *const tone_words[] = {"clip", "normalize", NULL};
+static const char *const tone_words[] = {"clip", "normalize", "neutral", "filmic", NULL};
 static const char *const tone_docs[] = {
     "Values above 1 are clipped.", "A colour with a component above 1 is divided by its largest component.",
-    NULL};
+    "Colours stay as they are up to 0.8; brighter ones approach 1, and white (Khronos PBR Neutral).",
+    "Dark parts are darker and bright ones roll off, as on film (the curve of Narkowicz 2015).", NULL};
 static const char *const transfer_words[] = {"none", "srgb", NULL};
 static const char *const transfer_docs[] = {
     "Values are displayed as they are.",
@@ -61,6 +62,9 @@ static const struct schema_row image_rows[] = {
     {.name = "min_samples", FIELD(ir_image, min_samples), .example = "8", .range = SCHEMA_RANGE_SAMPLES,
      .also = "samples_min min_spp",
      .standard = "16", .doc = "Samples that a pixel takes before `error` may end it."},
+    {.name = "exposure", FIELD(ir_image, exposure), .example = "-0.5", .range = SCHEMA_RANGE_STOPS,
+     .also = "ev stops brightness gain", .standard = "0",
+     .doc = "How much brighter the picture is shown, in stops: 1 is twice as bright, -1 half. HDR files keep the scene's light."},
     {.name = "tone", FIELD(ir_image, tone), .example = "normalize", .words = tone_words,
      .also = "tonemap tone_mapping tonemapping",
      .word_docs = tone_docs, .standard = "clip",

@@ -92,6 +92,7 @@ enum schema_range {
     SCHEMA_RANGE_FRAMES,     // 1..RANGE_FRAMES_MOST
     SCHEMA_RANGE_FRAME,      // 0..RANGE_FRAMES_MOST
     SCHEMA_RANGE_RATE,       // 0.001..1000
+    SCHEMA_RANGE_STOPS,      // -100..100
     SCHEMA_RANGE_COPIES,     // 0..RANGE_COPIES_MOST
     SCHEMA_RANGE_COUNT,
 };
@@ -191,6 +192,10 @@ bool schema_in_range(enum schema_range range, double value);
 
 // Index of the row of this name ("up"), or -1.
 int schema_find_row(const struct schema_element *element, str name);
+// The words of a row that has words, by their numbers; NULL ends them.
+const char *const *schema_words(const struct schema_element *element, const char *row);
+// The number of one of them; negative: it is not one.
+int schema_word(const char *const *words, const char *text);
 // Index of the row that a YAML key names: by plural for a list or map, by name otherwise, or by name for a
 // named map with `single` (then *is_single is true). -1: none.
 int schema_find_yaml(const struct schema_element *element, str key, bool *is_single);

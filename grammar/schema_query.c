@@ -44,6 +44,7 @@ static const struct schema_range_info ranges[SCHEMA_RANGE_COUNT] = {
                              "from 1 to " RANGE_TEXT(RANGE_FRAMES_MOST)},
     [SCHEMA_RANGE_FRAME] = {"frame", 0, RANGE_FRAMES_MOST, false, false,
                             "from 0 to " RANGE_TEXT(RANGE_FRAMES_MOST)},
+    [SCHEMA_RANGE_STOPS] = {"stops", -100, 100, false, false, "from -100 to 100"},
     [SCHEMA_RANGE_RATE] = {"rate", RANGE_RATE_LEAST, RANGE_RATE_MOST, false, false,
                            "from " RANGE_TEXT(RANGE_RATE_LEAST) " to " RANGE_TEXT(RANGE_RATE_MOST)},
     [SCHEMA_RANGE_COPIES] = {"copies", 0, RANGE_COPIES_MOST, false, false,
@@ -112,6 +113,17 @@ bool schema_in_range(enum schema_range range, double value) {
         return true;
     double v = info->magnitude ? fabs(value) : value;
     return (info->open ? v > info->least : v >= info->least) && v <= info->greatest;
+}
+
+const char *const *schema_words(const struct schema_element *element, const char *row) {
+    return element->rows[schema_find_row(element, str_from(row))].words;
+}
+
+int schema_word(const char *const *words, const char *text) {
+    for (int i = 0; words[i]; i++)
+        if (strcmp(words[i], text) == 0)
+            return i;
+    return -1;
 }
 
 int schema_find_row(const struct schema_element *element, str name) {

@@ -167,7 +167,7 @@ static double weaker(const struct small *small, size_t i) {
 // Compares as displayed: how many pixels are off, and how many would be, given each sample's share of all.
 static void compare(struct small *small, struct precision_choice *out) {
     const struct ir_image *image = &small->trial->input->scene->ir->image;
-    const struct image_display display = {image->tone, image->transfer};
+    const struct image_display display = image_display_of(image);
     const uint32_t pixels = small->width * small->height;
     for (size_t i = 0; i < values_of(small); i++) {
         small->shown[0][i] = (float)small->exact[i];

@@ -140,7 +140,7 @@ enum shot_status audit_take(struct session *session, const struct view *view, co
     struct work work = {.reference = wish->reference ? wish->reference : made,
                         .image = image,
                         .samples = wish->samples,
-                        .display = {session->image->tone, session->image->transfer},
+                        .display = image_display_of(session->image),
                         .first_off = UINT32_MAX};
     work.settings = reference_settings_of(session->scene, session->image, &session->options.limits, true);
     work.settings.planned = wish->planned;

@@ -89,7 +89,7 @@ void shot_set_up(struct shot *shot) {
     shot->settings.width = (uint32_t)session->image->width;
     shot->settings.height = (uint32_t)session->image->height;
     shot->settings.samples = (uint32_t)session->image->samples;
-    shot->display = (struct image_display){session->image->tone, session->image->transfer};
+    shot->display = image_display_of(session->image);
     shot->settings.error = session->image->error;
     shot->settings.least_samples = (uint32_t)session->image->min_samples;
     shot->settings.show = show;

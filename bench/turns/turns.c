@@ -200,7 +200,7 @@ static bool write_picture(struct turns *t, const char *path) {
     if (!image_format_of_path(str_from(path), IMAGE_WRITTEN, &format))
         return turns_say(TURNS_FAILED, "%s: the output must end in %s", path, IMAGE_WRITTEN_ENDINGS) ==
                TURNS_DONE;
-    const struct image_display display = {t->session.image->tone, t->session.image->transfer};
+    const struct image_display display = image_display_of(t->session.image);
     strbuf_init(&bytes);
     image_encode(&t->image, format, display, &bytes);
     const int error = bytes.failed ? -1 : output_whole(path, bytes.data, bytes.len);

@@ -5,6 +5,7 @@
 #include "diag/codes/file.h"
 #include "diag/codes/limit.h"
 #include "files/files.h"
+#include "grammar/schema.h"
 #include "picture/metrics/compare_report.h"
 #include "picture/metrics/heatmap.h"
 #include "picture/metrics/picture_file.h"
@@ -61,17 +62,16 @@ static bool keep_linear(struct comparison *c, int which) {
 // A float picture does not say how the byte picture was toned. If another way than the assumed one brings
 // them much nearer, help names that way.
 static bool offer_display(struct comparison *c) {
-    static const char *const tones[] = {[IR_TONE_CLIP] = "clip", [IR_TONE_NORMALIZE] = "normalize"};
-    static const char *const transfers[] = {[IR_TRANSFER_NONE] = "none", [IR_TRANSFER_SRGB] = "srgb"};
+    const char *const *tones = schema_words(&SCHEMA_IMAGE, "tone");
+    const char *const *transfers = schema_words(&SCHEMA_IMAGE, "transfer");
     struct picture_file *p = c->pictures;
     float *shown = p[p[0].space == MEASURE_LINEAR ? 0 : 1].rgb; // no longer needed
     struct measure_options options = c->options;
     struct measure_result result;
     double best = c->result.value[METRIC_MAE] / 2;
     options.metrics = 1 << METRIC_MAE;
-    for (int i = 0; i < 4; i++) {
-        const struct image_display display = {.tone = i & 1 ? IR_TONE_NORMALIZE : IR_TONE_CLIP,
-                                              .transfer = i & 2 ? IR_TRANSFER_SRGB : IR_TRANSFER_NONE};
+    for (unsigned tone = 0, transfer = 0; tones[tone]; transfer = !transfer, tone += !transfer) {
+        const struct image_display display = {.tone = tone, .transfer = transfer};
         image_to_displayed(c->linear, (size_t)p[0].width * p[0].height, display, shown);
         if (!measure_pictures(p[0].width, p[0].height, p[0].rgb, p[1].rgb, &options, &result, NULL, NULL))
             return false;

@@ -54,7 +54,7 @@ static size_t pixels_of(const struct run *run) {
 }
 
 static struct image_display display_of(const struct ir_scene *scene) {
-    return (struct image_display){scene->image.tone, scene->image.transfer};
+    return image_display_of(&scene->image);
 }
 
 // ---- the device's side

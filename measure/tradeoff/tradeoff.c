@@ -229,7 +229,7 @@ enum tradeoff_status tradeoff_run(struct tradeoff *study, const struct tradeoff_
     s->begun = clock_seconds();
     s->steps = 1 + PLAN_ROWS_MAX; // until the rows are planned
     s->step = "the scene";
-    s->display = (struct image_display){input->image->tone, input->image->transfer};
+    s->display = image_display_of(input->image);
     study->base = s->base = file_setting(input);
     s->deadline = options->search ? deadline_of(options, s->begun) : 0;
     snprintf(study->device, sizeof study->device, "%s", gpu_info(input->gpu)->name);

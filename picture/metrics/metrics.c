@@ -152,7 +152,7 @@ static bool sum_pixels(struct plane_size size, const float *picture, const float
 static float *displayed_copy(const float *picture, size_t pixels, const struct measure_options *options) {
     float *copy = heap_array(heap_times(3, pixels), sizeof *copy);
     // In displayed values only NaN changes.
-    const struct image_display none = {IR_TONE_CLIP, IR_TRANSFER_NONE};
+    const struct image_display none = {.tone = IR_TONE_CLIP, .transfer = IR_TRANSFER_NONE};
     if (copy)
         image_to_displayed(picture, pixels, options->space == MEASURE_LINEAR ? options->display : none, copy);
     return copy;

@@ -63,7 +63,11 @@ struct image {
 struct image_display {
     unsigned tone;     // ir_tone
     unsigned transfer; // ir_transfer
+    double exposure;   // stops
 };
+// As a scene's image element says.
+struct ir_image;
+struct image_display image_display_of(const struct ir_image *image);
 
 // Black; false: no memory. width and height are at least 1.
 bool image_init(struct image *image, uint32_t width, uint32_t height);

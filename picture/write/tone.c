@@ -1,5 +1,6 @@
 #include "core/parallel.h"
 #include "core/srgb.h"
+#include "grammar/ir.h"
 #include "picture/write/image.h"
 
 #include <math.h>
@@ -46,26 +47,74 @@ struct conversion {
     const float *rgb;
     uint8_t *bytes;
     struct image_display display;
+    float gain;
     struct thresholds thresholds;
 };
+
+struct image_display image_display_of(const struct ir_image *image) {
+    return (struct image_display){image->tone, image->transfer, image->exposure};
+}
+
+// ---- tone
+
+// Brighter than any picture, so that no product overflows.
+#define BRIGHTEST 1e30
 
 static float clamped(float c) {
     return c > 0 ? (c < 1 ? c : 1) : 0;
 }
 
-// The divisor of a colour's channels before clamping.
-static float tone_divisor(const float c[3], unsigned tone) {
+static void normalize(const float c[3], float out[3]) {
     float largest = 1;
-    for (int i = 0; tone == IR_TONE_NORMALIZE && i < 3; i++)
-        if (c[i] > largest)
-            largest = c[i];
-    return largest;
+    for (int i = 0; i < 3; i++)
+        largest = c[i] > largest ? c[i] : largest;
+    for (int i = 0; i < 3; i++) // also if both are infinite: the largest channel is full
+        out[i] = largest > 1 && c[i] == largest ? 1 : clamped(c[i] / largest);
 }
 
-static float toned(float c, float divisor) {
-    // Also if both are infinite: the largest channel is full.
-    return divisor > 1 && c == divisor ? 1 : clamped(c / divisor);
+// Khronos PBR Neutral, version 1.0 of its specification (Khronos Group 2024).
+static void neutral(const float c[3], float out[3]) {
+    const double f90 = 0.04, start = 0.8 - f90, desaturation = 0.15, rest = 1 - start;
+    double rgb[3];
+    for (int i = 0; i < 3; i++)
+        rgb[i] = fmin(fmax((double)c[i], 0), BRIGHTEST);
+    const double least = fmin(rgb[0], fmin(rgb[1], rgb[2]));
+    const double offset = least < 2 * f90 ? least - least * least / (4 * f90) : f90;
+    const double peak = fmax(rgb[0], fmax(rgb[1], rgb[2])) - offset;
+    const double shown = peak < start ? peak : 1 - rest * rest / (peak + rest - start);
+    const double scale = peak < start ? 1 : shown / peak;
+    const double white = peak < start ? 0 : 1 - 1 / (desaturation * (peak - shown) + 1);
+    for (int i = 0; i < 3; i++)
+        out[i] = clamped((float)((rgb[i] - offset) * scale * (1 - white) + shown * white));
 }
+
+// A fit to the curve of ACES (Narkowicz 2015), channel by channel.
+static void filmic(const float c[3], float out[3]) {
+    for (int i = 0; i < 3; i++) {
+        const double x = fmin(fmax((double)c[i], 0), BRIGHTEST);
+        out[i] = clamped((float)(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14)));
+    }
+}
+
+// What is shown of linear values, as linear values from 0 to 1. `gain`: of the exposure.
+static void tone(const float linear[3], unsigned kind, float gain, float out[3]) {
+    const float c[3] = {linear[0] * gain, linear[1] * gain, linear[2] * gain};
+    if (kind == IR_TONE_NORMALIZE)
+        normalize(c, out);
+    else if (kind == IR_TONE_NEUTRAL)
+        neutral(c, out);
+    else if (kind == IR_TONE_FILMIC)
+        filmic(c, out);
+    else
+        for (int i = 0; i < 3; i++)
+            out[i] = clamped(c[i]);
+}
+
+static float gain_of(struct image_display display) {
+    return (float)exp2(display.exposure);
+}
+
+// ---- pictures
 
 static void convert_pixels(void *context, size_t begin, size_t end) {
     const struct conversion *job = context;
@@ -75,9 +124,10 @@ static void convert_pixels(void *context, size_t begin, size_t end) {
             memcpy(job->bytes + 3 * i, (uint8_t[3]){255, 0, 255}, 3);
             continue;
         }
-        float divisor = tone_divisor(c, job->display.tone);
+        float shown[3];
+        tone(c, job->display.tone, job->gain, shown);
         for (int k = 0; k < 3; k++) {
-            float value = toned(c[k], divisor);
+            const float value = shown[k];
             job->bytes[3 * i + (size_t)k] = job->display.transfer == IR_TRANSFER_SRGB
                                                 ? threshold_byte(&job->thresholds, value)
                                                 : round_to_byte(value);
@@ -86,8 +136,7 @@ static void convert_pixels(void *context, size_t begin, size_t end) {
 }
 
 void image_to_bytes(const struct image *image, struct image_display display, uint8_t *bytes) {
-    struct conversion job = {.rgb = image->rgb, .display = display};
-    job.bytes = bytes;
+    struct conversion job = {.rgb = image->rgb, .bytes = bytes, .display = display, .gain = gain_of(display)};
     if (display.transfer == IR_TRANSFER_SRGB)
         thresholds_make(&job.thresholds);
     parallel_for((size_t)image->width * image->height, PIECE_PIXELS, convert_pixels, &job);
@@ -99,11 +148,13 @@ static void word_pixels(void *context, size_t begin, size_t end) {
     for (size_t i = begin; i < end; i++) {
         const float *c = job->rgb + 3 * i;
         const bool marked = image_is_marked(c);
-        const float divisor = tone_divisor(c, job->display.tone);
+        float shown[3] = {1, 0, 1};
+        if (!marked)
+            tone(c, job->display.tone, job->gain, shown);
         for (size_t k = 0; k < 3; k++) {
-            const double value = marked ? k != 1 : (double)toned(c[k], divisor);
-            const double shown = job->display.transfer == IR_TRANSFER_SRGB ? srgb_encode(value) : value;
-            const uint32_t word = (uint32_t)floor(65535 * shown + 0.5);
+            const double value = (double)shown[k];
+            const double encoded = job->display.transfer == IR_TRANSFER_SRGB ? srgb_encode(value) : value;
+            const uint32_t word = (uint32_t)floor(65535 * encoded + 0.5);
             job->bytes[6 * i + 2 * k] = (uint8_t)(word >> 8);
             job->bytes[6 * i + 2 * k + 1] = (uint8_t)word;
         }
@@ -111,7 +162,7 @@ static void word_pixels(void *context, size_t begin, size_t end) {
 }
 
 void image_to_words(const struct image *image, struct image_display display, uint8_t *bytes) {
-    struct conversion job = {.rgb = image->rgb, .bytes = bytes, .display = display};
+    struct conversion job = {.rgb = image->rgb, .bytes = bytes, .display = display, .gain = gain_of(display)};
     parallel_for((size_t)image->width * image->height, PIECE_PIXELS, word_pixels, &job);
 }
 
@@ -119,15 +170,16 @@ struct displaying {
     const float *linear;
     float *displayed;
     struct image_display display;
+    float gain;
 };
 
 static void display_pixels(void *context, size_t begin, size_t end) {
     const struct displaying *job = context;
     for (size_t i = begin; i < end; i++) {
-        const float *c = job->linear + 3 * i;
-        const float divisor = tone_divisor(c, job->display.tone);
+        float shown[3];
+        tone(job->linear + 3 * i, job->display.tone, job->gain, shown);
         for (size_t k = 0; k < 3; k++) {
-            const float value = toned(c[k], divisor);
+            const float value = shown[k];
             job->displayed[3 * i + k] =
                 job->display.transfer == IR_TRANSFER_SRGB ? (float)srgb_encode((double)value) : value;
         }
@@ -135,6 +187,6 @@ static void display_pixels(void *context, size_t begin, size_t end) {
 }
 
 void image_to_displayed(const float *linear, size_t pixels, struct image_display display, float *displayed) {
-    struct displaying job = {linear, displayed, display};
+    struct displaying job = {linear, displayed, display, gain_of(display)};
     parallel_for(pixels, PIECE_PIXELS, display_pixels, &job);
 }

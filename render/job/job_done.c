@@ -41,7 +41,7 @@ static bool same_pixels(const struct part *a, const struct part *b) {
            a->region.y == b->region.y && a->region.width == b->region.width &&
            a->region.height == b->region.height && a->first_sample == b->first_sample &&
            a->end_sample == b->end_sample && a->samples == b->samples && a->display.tone == b->display.tone &&
-           a->display.transfer == b->display.transfer;
+           a->display.transfer == b->display.transfer && a->display.exposure == b->display.exposure;
 }
 
 static bool part_is_there(const struct job *job, const char *path, const struct image_texts *texts) {

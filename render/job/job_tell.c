@@ -16,7 +16,7 @@ const struct render_estimate *job_estimate(const struct job *job) {
 // ---- its file
 
 struct image_display job_display(const struct job *job) {
-    return (struct image_display){job->session->image->tone, job->session->image->transfer};
+    return image_display_of(job->session->image);
 }
 
 struct provenance job_provenance(const struct job *job, enum image_format format,

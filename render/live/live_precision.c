@@ -79,7 +79,7 @@ bool live_keeps_precision(struct live *live, struct session *session, uint32_t c
     const struct ir_image *was = live->session->image, *now = session->image;
     const bool is_same = live->session->resolved.body_count == session->resolved.body_count &&
                          was->width == now->width && was->height == now->height && was->tone == now->tone &&
-                         was->transfer == now->transfer;
+                         was->transfer == now->transfer && was->exposure == now->exposure;
     if (!live->follows || !is_same || !live->is_asked || live->kept >= KEPT_MOST ||
         (live->choice.traced && !is_clear(&live->choice)))
         return false;

@@ -1,9 +1,11 @@
 #include "render/parts/part_file.h"
 
 #include "core/heap.h"
+#include "core/number.h"
 #include "core/ranges.h"
 #include "core/xxh64.h"
 #include "files/stream.h"
+#include "grammar/schema.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -18,8 +20,6 @@ enum {
 };
 
 // As the file has them: the words of the scene's image element.
-static const char *const tones[] = {[IR_TONE_CLIP] = "clip", [IR_TONE_NORMALIZE] = "normalize"};
-static const char *const transfers[] = {[IR_TRANSFER_NONE] = "none", [IR_TRANSFER_SRGB] = "srgb"};
 
 uint32_t part_planes(const struct part *part) {
     const uint32_t samples = part->end_sample - part->first_sample;
@@ -39,7 +39,14 @@ void part_put_head(const struct part *part, const char *kind, struct strbuf *out
     strbuf_format(out, "device %s\nsize %u %u\n", part->device, part->width, part->height);
     strbuf_format(out, "region %u %u %u %u\n", r->x, r->y, r->width, r->height);
     strbuf_format(out, "samples %u %u %u\n", part->first_sample, part->end_sample, part->samples);
-    strbuf_format(out, "shown %s %s\n", tones[part->display.tone], transfers[part->display.transfer]);
+    strbuf_format(out, "shown %s %s", schema_words(&SCHEMA_IMAGE, "tone")[part->display.tone],
+                  schema_words(&SCHEMA_IMAGE, "transfer")[part->display.transfer]);
+    if (part->display.exposure != 0) {
+        char number[NUMBER_FORMAT_MAX];
+        strbuf_cstr(out, " ");
+        strbuf_add(out, number, number_format(part->display.exposure, number));
+    }
+    strbuf_cstr(out, "\n");
     strbuf_format(out, "record %s\n", part->record);
 }
 
@@ -123,13 +130,6 @@ bool part_write_rows(const struct part *part, const struct image_rows *rows, con
 
 // ---- reading
 
-static int word_of(const char *const *words, int count, const char *text) {
-    for (int i = 0; i < count; i++)
-        if (words[i] && strcmp(words[i], text) == 0)
-            return i;
-    return -1;
-}
-
 static bool is_sound(const struct part *part) {
     const struct part_region *r = &part->region;
     return part->width >= 1 && part->height >= 1 && part->width <= RANGE_SIDE_MOST &&
@@ -176,9 +176,15 @@ static bool take_display(char **text, struct image_display *display) {
     if (!space)
         return false;
     *space = '\0';
-    const int a = word_of(tones, sizeof tones / sizeof *tones, tone);
-    const int b = word_of(transfers, sizeof transfers / sizeof *transfers, space + 1);
-    *display = (struct image_display){(unsigned)a, (unsigned)b};
+    char *transfer = space + 1, *exposure = strchr(transfer, ' ');
+    double stops = 0;
+    if (exposure && !number_parse_real(str_from(exposure + 1), -100, 100, &stops))
+        return false;
+    if (exposure)
+        *exposure = '\0';
+    const int a = schema_word(schema_words(&SCHEMA_IMAGE, "tone"), tone);
+    const int b = schema_word(schema_words(&SCHEMA_IMAGE, "transfer"), transfer);
+    *display = (struct image_display){(unsigned)a, (unsigned)b, stops};
     return a >= 0 && b >= 0;
 }
 

@@ -241,7 +241,7 @@ static enum preview_state take_by_reference(struct preview *p, const struct prev
     else
         status = SHOT_CANCELLED;
     enum preview_state state = state_of(status, cancelled);
-    const struct image_display display = {session->image->tone, session->image->transfer};
+    const struct image_display display = image_display_of(session->image);
     if (state == PREVIEW_DRAWN)
         state = keep(picture, display, &made);
     image_finish(&made.image);

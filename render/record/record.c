@@ -2,6 +2,7 @@
 
 #include "core/number.h"
 #include "grammar/ir.h"
+#include "grammar/schema.h"
 #include "render/record/words.h"
 #include "scene/content.h"
 
@@ -66,8 +67,6 @@ static void write_command(const struct record *record, struct strbuf *line) {
 // ---- all of it
 
 static void write_settings(const struct record *record, struct strbuf *text) {
-    static const char *const tones[] = {[IR_TONE_CLIP] = "clip", [IR_TONE_NORMALIZE] = "normalize"};
-    static const char *const transfers[] = {[IR_TRANSFER_NONE] = "none", [IR_TRANSFER_SRGB] = "srgb"};
     const struct record_command *c = &record->command;
     const struct ir_image *image = record->session->image;
     strbuf_format(text, "%d x %d pixels, %d sample%s", (int)c->width, (int)c->height, (int)c->samples,
@@ -79,8 +78,14 @@ static void write_settings(const struct record *record, struct strbuf *text) {
     }
     if (c->camera.len)
         strbuf_format(text, ", camera %.*s", STR_ARG(c->camera));
-    strbuf_format(text, ", %s precision, tone %s, transfer %s", record->is_double ? "double" : "single",
-                  tones[image->tone], transfers[image->transfer]);
+    strbuf_format(text, ", %s precision", record->is_double ? "double" : "single");
+    if (image->exposure != 0) {
+        char number[NUMBER_FORMAT_MAX];
+        strbuf_cstr(text, ", exposure ");
+        strbuf_add(text, number, number_format(image->exposure, number));
+    }
+    strbuf_format(text, ", tone %s, transfer %s", schema_words(&SCHEMA_IMAGE, "tone")[image->tone],
+                  schema_words(&SCHEMA_IMAGE, "transfer")[image->transfer]);
 }
 
 static void write_field(const struct record *record, enum record_field field, struct strbuf *text) {

@@ -235,7 +235,7 @@ static void study_scene(struct study *s, const char *path) {
     expect(s, loaded, path, "is loaded");
     if (loaded) {
         struct flat_input input = precision_input(&s->session, &s->view);
-        s->display = (struct image_display){s->session.image->tone, s->session.image->transfer};
+        s->display = image_display_of(s->session.image);
         const bool flat = flatten(&input, &s->flat);
         expect(s, flat, path, "is flattened");
         if (flat)

@@ -127,7 +127,7 @@ static bool take(struct taken *t, struct run *run) {
     good = good && flatten(&input, &t->flat);
     if (!good)
         return false;
-    t->display = (struct image_display){t->session.image->tone, t->session.image->transfer};
+    t->display = image_display_of(t->session.image);
     for (int i = 0; i < 2; i++)
         t->shown[i] = malloc(3 * pixels * sizeof(float));
     good = t->shown[0] && t->shown[1] && draw(t, run, false) && draw(t, run, true);

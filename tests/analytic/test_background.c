@@ -60,7 +60,8 @@ static bool write_png(struct analytic *a, const struct sky *sky) {
     for (int i = 0; i < sky->width * sky->height * 3; i++)
         image.rgb[i] = (float)sky->texels[i / 3][i % 3];
     strbuf_init(&bytes);
-    image_encode(&image, IMAGE_PNG, (struct image_display){IR_TONE_CLIP, IR_TRANSFER_NONE}, &bytes);
+    image_encode(&image, IMAGE_PNG,
+                 (struct image_display){.tone = IR_TONE_CLIP, .transfer = IR_TRANSFER_NONE}, &bytes);
     str text = strbuf_view(&bytes);
     bool good = !bytes.failed && analytic_write(a, "sky.png", text.ptr, text.len);
     strbuf_finish(&bytes);

@@ -460,7 +460,8 @@ static bool write_rows(struct analytic *a) {
     for (int i = 0; i < 3; i++)
         image.rgb[i] = 1;
     strbuf_init(&bytes);
-    image_encode(&image, IMAGE_PNG, (struct image_display){IR_TONE_CLIP, IR_TRANSFER_NONE}, &bytes);
+    image_encode(&image, IMAGE_PNG,
+                 (struct image_display){.tone = IR_TONE_CLIP, .transfer = IR_TRANSFER_NONE}, &bytes);
     str text = strbuf_view(&bytes);
     const bool good = !bytes.failed && analytic_write(a, "rows.png", text.ptr, text.len);
     strbuf_finish(&bytes);

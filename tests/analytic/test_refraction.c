@@ -351,7 +351,8 @@ static bool write_pictures(struct analytic *a) {
             image.rgb[i] = (k ? (float)(state >> 24) : (float)gray[i / 3]) / 255;
         }
         strbuf_init(&bytes);
-        image_encode(&image, IMAGE_PNG, (struct image_display){IR_TONE_CLIP, IR_TRANSFER_NONE}, &bytes);
+        image_encode(&image, IMAGE_PNG,
+                     (struct image_display){.tone = IR_TONE_CLIP, .transfer = IR_TRANSFER_NONE}, &bytes);
         str text = strbuf_view(&bytes);
         good = !bytes.failed && analytic_write(a, k ? "noise.png" : "rows.png", text.ptr, text.len) && good;
         strbuf_finish(&bytes);

@@ -185,7 +185,8 @@ static bool write_pixels(struct analytic *a, const char *name, uint32_t height, 
         return false;
     memcpy(image.rgb, rgb, (size_t)height * 3 * sizeof *rgb);
     strbuf_init(&bytes);
-    image_encode(&image, IMAGE_PNG, (struct image_display){IR_TONE_CLIP, IR_TRANSFER_NONE}, &bytes);
+    image_encode(&image, IMAGE_PNG,
+                 (struct image_display){.tone = IR_TONE_CLIP, .transfer = IR_TRANSFER_NONE}, &bytes);
     const str text = strbuf_view(&bytes);
     const bool good = !bytes.failed && analytic_write(a, name, text.ptr, text.len);
     strbuf_finish(&bytes);

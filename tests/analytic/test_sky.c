@@ -183,7 +183,8 @@ static bool write_sky(struct analytic *a, const struct sky *sky) {
     for (int i = 0; i < WIDTH * HEIGHT * 3; i++)
         image.rgb[i] = (float)((&sky->texels[0][0][0])[i] / 255.0);
     strbuf_init(&bytes);
-    image_encode(&image, IMAGE_PNG, (struct image_display){IR_TONE_CLIP, IR_TRANSFER_NONE}, &bytes);
+    image_encode(&image, IMAGE_PNG,
+                 (struct image_display){.tone = IR_TONE_CLIP, .transfer = IR_TRANSFER_NONE}, &bytes);
     const str text = strbuf_view(&bytes);
     const bool good = !bytes.failed && analytic_write(a, "lights.png", text.ptr, text.len);
     strbuf_finish(&bytes);

@@ -242,7 +242,7 @@ static bool load(struct bench *b, struct pictures *p) {
     session_load(&p->session, &options, b->kit.store);
     if (p->session.state != SESSION_LOADED || p->session.sink.errors)
         return false;
-    p->display = (struct image_display){p->session.image->tone, p->session.image->transfer};
+    p->display = image_display_of(p->session.image);
     return true;
 }
 

@@ -30,7 +30,7 @@ static bool draw(struct session *session, struct image *image) {
 }
 
 static bool write(const struct session *session, const struct image *image, const char *path) {
-    const struct image_display display = {session->image->tone, session->image->transfer};
+    const struct image_display display = image_display_of(session->image);
     enum image_format format;
     struct strbuf bytes;
     if (!image_format_of_path(str_from(path), IMAGE_WRITTEN, &format))

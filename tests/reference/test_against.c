@@ -162,7 +162,7 @@ static bool check_session(struct picture_kit *kit, struct session *session) {
     bool good = p.device_hits && p.reference_hits && image_init(&p.device, p.width, p.height) &&
                 image_init(&p.reference, p.width, p.height) && take_device(kit, session, &p) &&
                 take_reference(session, &p) && session->sink.errors == 0;
-    struct image_display display = {session->image->tone, session->image->transfer};
+    struct image_display display = image_display_of(session->image);
     if (!good)
         fprintf(stderr, "%.*s: %s\n", STR_ARG(session->options.path), gpu_error(kit->gpu));
     else

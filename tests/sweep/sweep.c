@@ -68,7 +68,7 @@ static double share_off(const struct judging *j, const float *rgb) {
 }
 
 static struct image_display display_of(const struct judging *j) {
-    return (struct image_display){j->scene->ir->image.tone, j->scene->ir->image.transfer};
+    return image_display_of(&j->scene->ir->image);
 }
 
 static void take_picture(struct judging *j, enum sweep_tracer tracer) {

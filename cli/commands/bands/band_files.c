@@ -45,7 +45,7 @@ static int write_file(struct bands_run *run, const struct cli_output *output, co
                                     .context = &w,
                                     .texts = texts ? *texts : texts_of(run, output->format),
                                     .coding = render_coding(&run->r->cli->options, output->format)};
-    const struct image_display display = {image->tone, image->transfer};
+    const struct image_display display = image_display_of(image);
     bool ended;
     const int status = row_file_write(run->r->cli, path, &rows, output->format, display,
                                       output->is_part ? &run->work.bands.part : NULL, &ended);

@@ -139,7 +139,9 @@ static int merge(struct rendering *r) {
             r->record = NULL;
     if (is_done(r))
         return CLI_OK;
-    struct ir_image image = {.tone = parts->display.tone, .transfer = parts->display.transfer};
+    struct ir_image image = {.tone = parts->display.tone,
+                             .transfer = parts->display.transfer,
+                             .exposure = parts->display.exposure};
     r->job.session->image = &image;
     r->job.image = (struct image){.width = parts->width, .height = parts->height};
     status = render_judge_size(r);

@@ -84,7 +84,7 @@ static bool take(void *context, uint32_t y, uint32_t count, float *rgb) {
 
 static int write_picture(struct rendering *r, struct merging *m) {
     const struct cli_output *output = &r->outputs[0];
-    const struct image_display display = {r->job.session->image->tone, r->job.session->image->transfer};
+    const struct image_display display = image_display_of(r->job.session->image);
     const struct image_coding coding = render_coding(&r->cli->options, output->format);
     const struct image_rows rows = {
         .width = r->job.image.width,

@@ -129,7 +129,7 @@ int render_plan_part(struct rendering *r) {
                           .height = (uint32_t)image->height,
                           .samples = (uint32_t)image->samples,
                           .end_sample = (uint32_t)image->samples,
-                          .display = {image->tone, image->transfer}};
+                          .display = image_display_of(image)};
     part->region = (struct part_region){0, 0, part->width, part->height};
     r->job.is_part = render_wants_part(r);
     if (!CLI_HAS_DEVICES || !r->job.is_part) // the reference draws no parts, as render_judge_part has said

@@ -58,7 +58,8 @@ static bool show_picture(const struct picture_file *p, uint32_t step, struct str
             for (size_t k = 0; k < 3; k++)
                 small.rgb[3 * (y * small.width + x) + k] = (float)(sum[k] / count);
         }
-    image_encode(&small, IMAGE_PNG, (struct image_display){IR_TONE_CLIP, IR_TRANSFER_NONE}, out);
+    image_encode(&small, IMAGE_PNG,
+                 (struct image_display){.tone = IR_TONE_CLIP, .transfer = IR_TRANSFER_NONE}, out);
     image_finish(&small);
     return !out->failed;
 }

@@ -204,7 +204,7 @@ static void mistakes_in_numbers(void **state) {
 static void mistakes_in_words(void **state) {
     (void)state;
     loaded_check_twins(HEAD_YAML "image: {tone: Clip}\n", HEAD_XML "<Image tone=\"Clip\"/>" END_XML, "E207",
-                       "'image.tone' is 'Clip'; it must be 'clip' or 'normalize'");
+                       "'image.tone' is 'Clip'; it must be 'clip', 'normalize', 'neutral' or 'filmic'");
     loaded_check_twins(HEAD_YAML "trace: {shadows: yes}\n", HEAD_XML "<Trace shadows=\"yes\"/>" END_XML,
                        "E208", "'trace.shadows' is 'yes'; it must be true or false");
     loaded_check_twins(HEAD_YAML "lights: [{name: 1a, direction: [0, 1, 0]}]\n",

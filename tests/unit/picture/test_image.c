@@ -22,7 +22,7 @@
 #pragma GCC diagnostic ignored "-Wshadow"
 #include <stb/stb_image.h>
 
-static const struct image_display plain = {IR_TONE_CLIP, IR_TRANSFER_NONE};
+static const struct image_display plain = {.tone = IR_TONE_CLIP, .transfer = IR_TRANSFER_NONE};
 
 static uint8_t byte_of(float value, struct image_display display) {
     struct image image = {.width = 1, .height = 1, .rgb = (float[3]){value, 0, 0}};
@@ -56,7 +56,7 @@ static void test_marked(void **state) {
     for (unsigned tone = IR_TONE_CLIP; tone <= IR_TONE_NORMALIZE; tone++)
         for (unsigned transfer = IR_TRANSFER_NONE; transfer <= IR_TRANSFER_SRGB; transfer++) {
             uint8_t bytes[6] = {0};
-            image_to_bytes(&image, (struct image_display){tone, transfer}, bytes);
+            image_to_bytes(&image, (struct image_display){.tone = tone, .transfer = transfer}, bytes);
             assert_memory_equal(bytes, magenta, sizeof bytes);
         }
     struct strbuf file;
@@ -116,7 +116,7 @@ static void test_note(void **state) {
 
 static void test_normalize(void **state) {
     (void)state;
-    const struct image_display normalize = {IR_TONE_NORMALIZE, IR_TRANSFER_NONE};
+    const struct image_display normalize = {.tone = IR_TONE_NORMALIZE, .transfer = IR_TRANSFER_NONE};
     struct image image = {
         .width = 4, .height = 1, .rgb = (float[12]){4, 2, 1, 0.5f, 0.25f, 1, INFINITY, 3, INFINITY, 0, 2, 1}};
     static const uint8_t expected[12] = {255, 128, 64, 128, 64, 255, 255, 0, 255, 0, 255, 128};
@@ -128,11 +128,54 @@ static void test_normalize(void **state) {
     assert_memory_equal(bytes, clipped, sizeof bytes);
 }
 
+static void assert_shown(struct image_display display, const float linear[3], const double expected[3]) {
+    float shown[3];
+    image_to_displayed(linear, 1, display, shown);
+    for (int i = 0; i < 3; i++)
+        assert_true(fabs((double)shown[i] - expected[i]) < 1e-6);
+}
+
+// Values computed by hand from the formulas.
+static void test_tones(void **state) {
+    (void)state;
+    const struct image_display neutral = {.tone = IR_TONE_NEUTRAL}, filmic = {.tone = IR_TONE_FILMIC};
+    const float grey[3] = {0.5f, 0.5f, 0.5f}, white[3] = {4, 4, 4}, red[3] = {2, 0, 0},
+                one[3] = {1, 0.18f, 0};
+    assert_shown(neutral, grey, (double[3]){0.46, 0.46, 0.46});
+    assert_shown(neutral, white, (double[3]){0.983255814, 0.983255814, 0.983255814});
+    assert_shown(neutral, red, (double[3]){0.961081081, 0.129579857, 0.129579857});
+    assert_shown(filmic, one, (double[3]){0.803797468, 0.266899, 0});
+    const float far[3] = {INFINITY, 1e38f, NAN}, below[3] = {-1, -0.5f, -INFINITY};
+    for (unsigned tone = IR_TONE_CLIP; tone <= IR_TONE_FILMIC; tone++) {
+        float shown[6];
+        const struct image_display display = {.tone = tone, .exposure = 100};
+        image_to_displayed(far, 1, display, shown);
+        image_to_displayed(below, 1, display, shown + 3);
+        for (int i = 0; i < 6; i++)
+            assert_true(shown[i] >= 0 && shown[i] <= 1);
+    }
+}
+
+// A stop doubles what is shown, with every tone.
+static void test_exposure(void **state) {
+    (void)state;
+    const float dim[3] = {0.25f, 0.125f, 0.03125f}, bright[3] = {1, 0.5f, 0.125f};
+    for (unsigned tone = IR_TONE_CLIP; tone <= IR_TONE_FILMIC; tone++) {
+        float a[3], b[3];
+        image_to_displayed(dim, 1, (struct image_display){.tone = tone, .exposure = 2}, a);
+        image_to_displayed(bright, 1, (struct image_display){.tone = tone}, b);
+        assert_memory_equal(a, b, sizeof a);
+        image_to_displayed(bright, 1, (struct image_display){.tone = tone, .exposure = -2}, b);
+        image_to_displayed(dim, 1, (struct image_display){.tone = tone}, a);
+        assert_memory_equal(a, b, sizeof a);
+    }
+}
+
 // The table of thresholds against the formula, on floats of all sizes.
 static void test_srgb(void **state) {
     (void)state;
     const size_t count = 400000;
-    const struct image_display srgb = {IR_TONE_CLIP, IR_TRANSFER_SRGB};
+    const struct image_display srgb = {.tone = IR_TONE_CLIP, .transfer = IR_TRANSFER_SRGB};
     struct image image;
     assert_true(image_init(&image, (uint32_t)count, 1));
     uint8_t *bytes = malloc(3 * count);
@@ -336,10 +379,10 @@ static void test_hdr(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_marked),      cmocka_unit_test(test_rounding), cmocka_unit_test(test_note),
-        cmocka_unit_test(test_normalize),   cmocka_unit_test(test_srgb),     cmocka_unit_test(test_png),
-        cmocka_unit_test(test_png_repeats), cmocka_unit_test(test_png_size), cmocka_unit_test(test_pfm),
-        cmocka_unit_test(test_hdr),
+        cmocka_unit_test(test_marked),    cmocka_unit_test(test_rounding), cmocka_unit_test(test_note),
+        cmocka_unit_test(test_normalize), cmocka_unit_test(test_tones),    cmocka_unit_test(test_exposure),
+        cmocka_unit_test(test_srgb),      cmocka_unit_test(test_png),      cmocka_unit_test(test_png_repeats),
+        cmocka_unit_test(test_png_size),  cmocka_unit_test(test_pfm),      cmocka_unit_test(test_hdr),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

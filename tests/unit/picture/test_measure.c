@@ -213,13 +213,15 @@ static void test_spaces(void **state) {
     near(p->result.value[METRIC_MAE], 2, 0);
     near(p->result.value[METRIC_FLIP], 0, 0);
     float linear[6] = {0.5f, -1, 2, NAN, 0.0031308f, 8}, shown[6];
-    image_to_displayed(linear, 2, (struct image_display){IR_TONE_CLIP, IR_TRANSFER_SRGB}, shown);
+    image_to_displayed(linear, 2, (struct image_display){.tone = IR_TONE_CLIP, .transfer = IR_TRANSFER_SRGB},
+                       shown);
     near((double)shown[0], 0.735357, 1e-6);
     near((double)shown[1], 0, 0);
     near((double)shown[2], 1, 0);
     near((double)shown[3], 0, 0);
     near((double)shown[4], 12.92 * 0.0031308, 1e-6);
-    image_to_displayed(linear, 2, (struct image_display){IR_TONE_NORMALIZE, IR_TRANSFER_NONE}, shown);
+    image_to_displayed(
+        linear, 2, (struct image_display){.tone = IR_TONE_NORMALIZE, .transfer = IR_TRANSFER_NONE}, shown);
     near((double)shown[0], 0.25, 0);
     near((double)shown[2], 1, 0);
     free(p);
@@ -234,7 +236,7 @@ static void test_display_rounds_to_bytes(void **state) {
         linear[i] = (float)i / 160;
     for (unsigned tone = 0; tone < 2; tone++)
         for (unsigned transfer = 0; transfer < 2; transfer++) {
-            const struct image_display display = {tone, transfer};
+            const struct image_display display = {.tone = tone, .transfer = transfer};
             struct image image = {.width = 64, .height = 1, .rgb = linear};
             image_to_bytes(&image, display, bytes);
             image_to_displayed(linear, 64, display, shown);

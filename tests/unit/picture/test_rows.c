@@ -59,7 +59,7 @@ static void fill(struct image *image) {
     image->rgb[count / 2] = NAN;
 }
 
-static const struct image_display shown = {IR_TONE_CLIP, IR_TRANSFER_SRGB};
+static const struct image_display shown = {.tone = IR_TONE_CLIP, .transfer = IR_TRANSFER_SRGB};
 static const struct image_text lines[] = {{"Software", "glint"}, {"Command", "glint render \xC3\xA4"}};
 
 static bool write(const struct image *image, enum image_format format, struct ends *ends) {
