@@ -243,20 +243,22 @@ static str name_of(const struct schema_element *schema, const void *item) {
     return STR("");
 }
 
+static const struct ir_copies *copies_of(const struct lists *l, bool is_b) {
+    const struct ir_origin *origin = is_b ? l->d->b->origin : l->d->a->origin;
+    return origin ? origin->copies : NULL;
+}
+
 static str entry_path(const struct lists *l, bool is_b, uint32_t i) {
     struct differ *d = l->d;
     str path = join_path(d, is_b ? l->owner->path_b : l->owner->path_a, str_from(schema_yaml_key(l->row)));
     str name = name_of(l->row->child, entry(l, is_b, i));
     if (l->row->many == SCHEMA_NAMED_MAP)
         return join_path(d, path, name);
-    const struct ir_origin *origin = is_b ? d->b->origin : d->a->origin;
-    const struct ir_copies *copies = origin ? origin->copies : NULL;
+    const struct ir_copies *copies = copies_of(l, is_b);
     struct strbuf label;
-    strbuf_init(&label);
-    if (ir_copies_instance(copies, l->row, i) && name.len) {
-        strbuf_finish(&label);
+    if (ir_copies_instance(copies, l->row, i) && name.len)
         return name;
-    }
+    strbuf_init(&label);
     if (ir_copies_instance(copies, l->row, i)) {
         ir_copies_label(copies, l->row, i, &label);
         path = STR("");
@@ -288,8 +290,7 @@ static double likeness(void *context, uint32_t a, uint32_t b) {
         return same_element(l->d, l->row->child, pair.a, pair.b) ? 1 : -1;
     if (name_a.len && name_b.len)
         return -1;
-    const struct ir_copies *copies_a = l->d->a->origin ? l->d->a->origin->copies : NULL;
-    const struct ir_copies *copies_b = l->d->b->origin ? l->d->b->origin->copies : NULL;
+    const struct ir_copies *copies_a = copies_of(l, false), *copies_b = copies_of(l, true);
     if (!ir_copies_are_same(copies_a, ir_copies_instance(copies_a, l->row, a), copies_b,
                             ir_copies_instance(copies_b, l->row, b)))
         return -1;
@@ -307,14 +308,14 @@ static double likeness(void *context, uint32_t a, uint32_t b) {
 // What an entry says, and whose it is.
 static str content_of(const struct lists *l, bool is_b, uint32_t i) {
     struct differ *d = l->d;
-    const struct ir_origin *origin = is_b ? d->b->origin : d->a->origin;
+    const struct ir_copies *copies = copies_of(l, is_b);
     const str text = item_text(d, is_b ? d->b : d->a, l->row->child, entry(l, is_b, i));
-    const uint32_t instance = ir_copies_instance(origin ? origin->copies : NULL, l->row, i);
+    const uint32_t instance = ir_copies_instance(copies, l->row, i);
     if (!instance)
         return text;
     struct strbuf name;
     strbuf_init(&name);
-    ir_copies_instance_name(origin->copies, instance - 1, &name);
+    ir_copies_instance_name(copies, instance - 1, &name);
     const str both = arena_format(d->arena, "%.*s/%.*s", STR_ARG(strbuf_view(&name)), STR_ARG(text));
     strbuf_finish(&name);
     return both;

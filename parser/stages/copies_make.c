@@ -1,9 +1,6 @@
 // The scene's lists get what `for`, `if` and instances make.
 #include "parser/stages/objects.h"
 
-#include "core/heap.h"
-#include "grammar/ir_copy.h"
-
 static struct diag_sink *sink(const struct evaluation *e) {
     return e->loader->input->sink;
 }
