@@ -30,6 +30,15 @@ str ir_walk_key(const struct schema_element *schema, const void *element) {
     return key < 0 ? (str){"", 0} : *(const str *)schema_field_const(&schema->rows[key], element);
 }
 
+str ir_walk_name(const struct schema_element *schema, const void *element) {
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
+        if (row->kind == SCHEMA_TEXT && (row->key || row->text == SCHEMA_TEXT_NAME))
+            return *(const str *)schema_field_const(row, element);
+    }
+    return STR("");
+}
+
 bool ir_walk_is_anonymous(const struct schema_element *schema, const void *item) {
     return schema_key_row(schema) >= 0 && ir_walk_key(schema, item).len == 0;
 }
