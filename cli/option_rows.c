@@ -14,6 +14,7 @@ static const struct option_word compressions[] = {
     {"zip", IMAGE_ZIP}, {"piz", IMAGE_PIZ}, {"none", IMAGE_UNCOMPRESSED}, {0}};
 static const struct option_word stats[] = {{"", CLI_STATS_TEXT}, {"json", CLI_STATS_JSON}, {0}};
 static const struct option_word fixes[] = {{"", FIX_SAFE}, {"all", FIX_ALL}, {0}};
+static const struct option_word understood[] = {{"", CLI_IR_WRITTEN}, {"evaluated", CLI_IR_EVALUATED}, {0}};
 static const struct option_word goings[] = {{"", false}, {"no", true}, {"yes", false}, {0}};
 static const struct option_word spellings[] = {{"yaml", 0}, {"xml", 1}, {0}};
 static const struct option_word colors[] = {
@@ -299,7 +300,10 @@ const struct option_row option_rows[] = {
     {"expanded", 0, NULL, "convert",
      "write one file without parameters, expressions and includes: the values that they come to",
      FLAG(expanded)},
-    {"ir", 0, NULL, "inspect", "print the scene as glint understood it, in canonical form", FLAG(ir)},
+    {"ir", 0, "[=evaluated]", "inspect",
+     "print the scene in canonical form, all files in one; with =evaluated values in the place of what is "
+     "computed, and all copies",
+     WORD(ir, understood)},
     {"as", 0, "yaml|xml", "render pick check inspect convert deps diff tradeoff extremes format",
      "the spelling of standard input (the argument '-'), instead of what its first character says",
      CHOICE(as, spellings)},

@@ -28,6 +28,12 @@ enum cli_color {
     CLI_COLOR_NEVER,
 };
 
+enum cli_ir {
+    CLI_IR_NONE,
+    CLI_IR_WRITTEN,
+    CLI_IR_EVALUATED,
+};
+
 enum cli_stats {
     CLI_STATS_NONE,
     CLI_STATS_TEXT,
@@ -158,7 +164,8 @@ struct cli_options {
     bool audit, has_max_off;
     double max_off;            // share of pixels
     bool check, diff, upgrade; // of what changes files
-    bool ir, expanded, list, watch;
+    bool expanded, list, watch;
+    int ir;     // cli_ir
     bool force; // overwrite
     bool trust_record;
     unsigned untrusted_seconds, untrusted_megabytes;

@@ -185,10 +185,7 @@ static bool take_random(const struct expression_step *step, double *a, struct ex
 }
 
 static void put_color(const struct expression_at *at, uint32_t hex, double *out) {
-    for (int i = 0; i < 3; i++) {
-        const uint32_t byte = hex >> (16 - 8 * i) & 255;
-        out[i] = at->decodes ? srgb_decode_byte(byte) : byte / 255.0;
-    }
+    srgb_of_hex(hex, at->decodes, out);
     out[3] = hex;
 }
 

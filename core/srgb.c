@@ -23,3 +23,10 @@ double srgb_decode_byte(uint32_t byte) {
     }
     return x * root * (x * root);
 }
+
+void srgb_of_hex(uint32_t hex, bool decodes, double out[3]) {
+    for (int i = 0; i < 3; i++) {
+        const uint32_t byte = hex >> (16 - 8 * i) & 255;
+        out[i] = decodes ? srgb_decode_byte(byte) : byte / 255.0;
+    }
+}

@@ -51,7 +51,6 @@ struct ir_copies {
     } objects;                            // with names, in their order
     const struct ir_instances *instances; // of the scene
     const struct ir_scene *document;      // objects and instances as they are written, and nothing else
-    const struct ir_scene *written; // the scene before, resolved, without values; NULL: nobody asked for it
 };
 
 // What an item of a list of the scene is called if it has no name: spheres[2], spheres[2][3],

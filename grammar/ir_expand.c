@@ -8,14 +8,6 @@
 
 #include <string.h>
 
-// The row of an object that has the list of such things; NULL: objects hold none.
-static const struct schema_row *row_of(const struct schema_element *child) {
-    for (uint32_t i = 0; i < SCHEMA_OBJECT.row_count; i++)
-        if (SCHEMA_OBJECT.rows[i].child == child)
-            return &SCHEMA_OBJECT.rows[i];
-    return NULL;
-}
-
 // Names are unique in their object, and whole names begin with those around them.
 static void shorten_name(const struct schema_element *schema, void *item) {
     const int row = schema_find_row(schema, STR("name"));
@@ -32,7 +24,7 @@ static void shorten_name(const struct schema_element *schema, void *item) {
 static void put_into_object(struct ir_scene *scene, const struct schema_row *row, const void *item,
                             uint32_t instance, struct arena *arena) {
     struct ir_object *object = &scene->objects.items[instance - 1];
-    const struct schema_row *list = row_of(row->child);
+    const struct schema_row *list = ir_walk_list_of(&SCHEMA_OBJECT, row->child);
     const uint32_t number = (uint32_t)(list - SCHEMA_OBJECT.rows);
     ir_walk_append(arena, list, object, item);
     object->head.written |= UINT64_C(1) << number;
@@ -77,7 +69,8 @@ void ir_expand_instances(struct ir_scene *scene, struct arena *arena) {
     show_objects(scene);
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++) {
         const struct schema_row *row = &SCHEMA_SCENE.rows[i];
-        if (row->kind == SCHEMA_LIST && row->child != &SCHEMA_PARAMETER && row_of(row->child))
+        if (row->kind == SCHEMA_LIST && row->child != &SCHEMA_PARAMETER &&
+            ir_walk_list_of(&SCHEMA_OBJECT, row->child))
             move_list(scene, row, arena);
     }
     scene->copies = NULL;

@@ -43,8 +43,9 @@ struct ir_file_origin {
 
 struct ir_origin {
     struct arena *arena;
-    struct ir_formulas *formulas; // of all files
-    struct ir_copies *copies;     // of the loaded scene; NULL: there are none
+    struct ir_formulas *formulas;   // of all files
+    struct ir_copies *copies;       // of the loaded scene; NULL: there are none
+    const struct ir_scene *written; // it before values were computed; NULL: none are, or nobody asked for it
     struct {
         struct ir_element_origin *items;
         uint32_t count, capacity;

@@ -30,15 +30,29 @@ str ir_walk_key(const struct schema_element *schema, const void *element) {
     return key < 0 ? (str){"", 0} : *(const str *)schema_field_const(&schema->rows[key], element);
 }
 
+str ir_walk_name(const struct schema_element *schema, const void *element) {
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
+        if (row->kind == SCHEMA_TEXT && (row->key || row->text == SCHEMA_TEXT_NAME))
+            return *(const str *)schema_field_const(row, element);
+    }
+    return STR("");
+}
+
 bool ir_walk_is_anonymous(const struct schema_element *schema, const void *item) {
     return schema_key_row(schema) >= 0 && ir_walk_key(schema, item).len == 0;
 }
 
-const struct schema_row *ir_walk_pool(const struct schema_element *target) {
-    for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++)
-        if (SCHEMA_SCENE.rows[i].kind == SCHEMA_LIST && SCHEMA_SCENE.rows[i].child == target)
-            return &SCHEMA_SCENE.rows[i];
+const struct schema_row *ir_walk_list_of(const struct schema_element *owner,
+                                         const struct schema_element *child) {
+    for (uint32_t i = 0; i < owner->row_count; i++)
+        if (owner->rows[i].kind == SCHEMA_LIST && owner->rows[i].child == child)
+            return &owner->rows[i];
     return NULL;
+}
+
+const struct schema_row *ir_walk_pool(const struct schema_element *target) {
+    return ir_walk_list_of(&SCHEMA_SCENE, target);
 }
 
 const void *ir_walk_referent(const struct ir_scene *scene, const struct schema_row *row,

@@ -28,6 +28,11 @@ bool ir_walk_is_anonymous(const struct schema_element *schema, const void *item)
 
 // The text of the element's key row (a name); empty if it has none.
 str ir_walk_key(const struct schema_element *schema, const void *element);
+// The list of such things; NULL: the owner has none.
+const struct schema_row *ir_walk_list_of(const struct schema_element *owner,
+                                         const struct schema_element *child);
+// The name of a thing, its key or another row; empty if it has none.
+str ir_walk_name(const struct schema_element *schema, const void *element);
 // The scene's list that references to `target` point into; NULL if there is none.
 const struct schema_row *ir_walk_pool(const struct schema_element *target);
 // What a SCHEMA_REFERENCE row refers to: NULL if nothing was written or found.

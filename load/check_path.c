@@ -8,6 +8,7 @@
 struct search {
     const struct session *session;
     const struct ir_scene *scene;
+    const struct ir_copies *copies; // of the scene; NULL: it is as it is written
     struct arena *arena;
     span at;
     uint32_t best_size; // of the span found so far
@@ -44,10 +45,8 @@ static void walk_list(struct search *s, const struct schema_row *row, const void
         if (ir_walk_is_anonymous(row->child, item))
             continue; // written inline, where it is used
         const struct ir_head *head = ir_walk_head(item);
-        const bool is_made = s->scene == s->session->scene;
-        const struct ir_copies *copies = is_made ? s->session->origin.copies : NULL;
-        const uint32_t number = position++, index = ir_copies_entry(copies, row, number);
-        if (ir_copies_instance(copies, row, number))
+        const uint32_t number = position++, index = ir_copies_entry(s->copies, row, number);
+        if (ir_copies_instance(s->copies, row, number))
             continue; // as it is written, it is in an object
         if (head->origin >= s->session->origin.elements.count)
             continue;
@@ -95,13 +94,14 @@ static void walk_element(struct search *s, const struct schema_element *schema, 
 }
 
 str check_scene_path(const struct session *session, struct arena *arena, span at) {
-    struct search search = {
-        .session = session, .scene = session->scene, .arena = arena, .at = at, .best_size = UINT32_MAX};
+    const struct ir_copies *copies = session->origin.copies;
+    struct search search = {session, session->scene, copies, arena, at, .best_size = UINT32_MAX};
     if (!session->scene || span_is_none(at))
         return search.best;
     walk_element(&search, &SCHEMA_SCENE, session->scene, STR(""));
-    if (session->origin.copies && session->origin.copies->document) {
-        search.scene = session->origin.copies->document;
+    if (copies) {
+        search.scene = copies->document;
+        search.copies = NULL;
         walk_element(&search, &SCHEMA_SCENE, search.scene, STR(""));
     }
     return search.best;

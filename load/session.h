@@ -59,7 +59,7 @@ struct session_options {
     struct timeline *timeline; // may be NULL
     bool unnamed; // only its beginning is read: the file begins as a scene does, but has another name
     struct session_kept *kept; // of this scene: its files are not read again (session_kept.h). NULL: they are
-    bool keeps_written;        // origin.copies has the scene as it is written
+    bool keeps_written;        // origin.written is the scene as it is written
     bool judged; // the caller judges the findings by policy and comments (load/check.h): they are not yet
                  // sorted
 };

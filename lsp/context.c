@@ -22,21 +22,6 @@ static void push(struct path *path, str key) {
 
 // ---- YAML
 
-// Where the content of a line begins, after spaces and the '-' of entries, and before `most`. *dash: the
-// column of the last '-'; -1: none.
-static size_t content_begin(str text, size_t begin, size_t most, int *dash) {
-    size_t at = begin;
-    *dash = -1;
-    for (; at < most; at++) {
-        bool is_dash = text.ptr[at] == '-' && (at + 1 >= text.len || strchr(" \t\r\n", text.ptr[at + 1]));
-        if (is_dash)
-            *dash = (int)(at - begin);
-        else if (text.ptr[at] != ' ')
-            break;
-    }
-    return at;
-}
-
 // The word before a ':' that only spaces separate from `end`; empty: there is none.
 static str key_before(str text, size_t begin, size_t end) {
     while (end > begin && strchr(" \t", text.ptr[end - 1]))
@@ -61,7 +46,7 @@ static str line_key(str text, size_t from) {
 static void climb(str text, size_t at, struct path *path) {
     size_t begin = context_line_begin(text, at);
     int dash;
-    int column = (int)(content_begin(text, begin, at, &dash) - begin);
+    int column = (int)(context_content(text, begin, at, &dash) - begin);
     int limit = dash >= 0 ? dash : column; // a parent key is left of it; it may be directly above a '-'
     bool in_list = dash >= 0;
     if (in_list)
@@ -69,7 +54,7 @@ static void climb(str text, size_t at, struct path *path) {
     while (begin > 0 && limit + in_list > 0) {
         size_t end = begin - 1;
         begin = context_line_begin(text, end);
-        size_t from = content_begin(text, begin, end, &dash);
+        size_t from = context_content(text, begin, end, &dash);
         int here = (int)(from - begin);
         if (from == end || text.ptr[from] == '#' || text.ptr[from] == '\r')
             continue;
@@ -102,7 +87,7 @@ static struct path yaml_path(str text, size_t offset, bool *is_flow) {
     if (*is_flow) {
         size_t begin = context_line_begin(text, at);
         int dash;
-        size_t from = content_begin(text, begin, at, &dash);
+        size_t from = context_content(text, begin, at, &dash);
         at = from;
     }
     climb(text, at, &path);

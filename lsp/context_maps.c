@@ -53,6 +53,17 @@ size_t context_line_end(str text, size_t at, size_t end) {
     return found ? (size_t)(found - text.ptr) : end;
 }
 
+size_t context_content(str text, size_t begin, size_t most, int *dash) {
+    size_t at = begin;
+    for (*dash = -1; at < most; at++) {
+        if (text.ptr[at] == '-' && (at + 1 >= text.len || context_is_space(text.ptr[at + 1])))
+            *dash = (int)(at - begin);
+        else if (text.ptr[at] != ' ')
+            break;
+    }
+    return at;
+}
+
 int context_column(str text, size_t begin, size_t *at) {
     *at = begin;
     while (*at < text.len && text.ptr[*at] == ' ')
@@ -118,15 +129,8 @@ struct line {
 
 // What is behind `most` is not looked at.
 static struct line read_line(str text, size_t begin, size_t most) {
-    struct line line = {begin, begin, -1, -1};
-    for (; line.content < most; line.content++) {
-        const char c = text.ptr[line.content];
-        const size_t next = line.content + 1;
-        if (c == '-' && (next >= text.len || context_is_space(text.ptr[next])))
-            line.dash = (int)(line.content - begin);
-        else if (c != ' ')
-            break;
-    }
+    struct line line = {.begin = begin, .column = -1};
+    line.content = context_content(text, begin, most, &line.dash);
     if (line.content < most && !strchr("#\r\n", text.ptr[line.content]))
         line.column = (int)(line.content - begin);
     return line;

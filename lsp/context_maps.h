@@ -42,6 +42,9 @@ size_t context_value_end(str text, size_t at, size_t end);
 size_t context_open_bracket(str text, size_t at);
 size_t context_line_begin(str text, size_t at);
 size_t context_line_end(str text, size_t at, size_t end);
+// Where the content of a line begins, after spaces and the '-' of entries, and before `most`. *dash: the
+// column of the last '-'; -1: none.
+size_t context_content(str text, size_t begin, size_t most, int *dash);
 // The column of the first thing in a line; *at: its place. -1: the line is empty, or a comment.
 int context_column(str text, size_t begin, size_t *at);
 

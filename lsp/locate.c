@@ -71,6 +71,13 @@ struct located locate(struct session *session, str path, size_t offset) {
 
 // ---- names
 
+static void add_use(struct arena *arena, struct located_name *name, span at) {
+    for (uint32_t i = 0; i < name->uses.count; i++)
+        if (span_equal(name->uses.items[i], at))
+            return;
+    *ARENA_PUSH(arena, &name->uses) = at;
+}
+
 struct users {
     struct session *session;
     struct arena *arena;
@@ -89,12 +96,30 @@ static void note_users(void *context, const struct schema_element *schema, const
             ir_walk_referent(locate_scene(users->session), row, reference) != users->referent)
             continue;
         const struct ir_row_origin *place = ir_origin_row(&users->session->origin, ir_walk_head(element), i);
-        bool known = !place;
-        for (uint32_t k = 0; !known && k < users->out->uses.count; k++)
-            known = span_equal(users->out->uses.items[k], place->value);
-        if (!known)
-            *ARENA_PUSH(users->arena, &users->out->uses) = place->value;
+        if (place)
+            add_use(users->arena, users->out, place->value);
     }
+}
+
+static void note_named(void *context, const struct schema_element *schema, const void *element, span at) {
+    struct users *users = context;
+    (void)schema;
+    if (element == users->referent)
+        add_use(users->arena, users->out, at);
+}
+
+struct here {
+    const struct located *at;
+    struct located_name *out;
+};
+
+static void find_named(void *context, const struct schema_element *schema, const void *element, span at) {
+    struct here *here = context;
+    if (at.source != here->at->at.source || here->at->offset < at.begin || here->at->offset > at.end)
+        return;
+    here->out->schema = schema;
+    here->out->element = element;
+    here->out->here = at;
 }
 
 bool locate_name(struct session *session, const struct located *at, struct arena *arena,
@@ -103,21 +128,24 @@ bool locate_name(struct session *session, const struct located *at, struct arena
     *out = (struct located_name){0};
     if (!at->schema || !scene)
         return false;
-    const bool is_word = locate_word(session, at, arena, out);
-    if (!is_word) {
+    struct here here = {at, out};
+    locate_named(session, find_named, &here);
+    const bool is_within = out->element != NULL; // other text
+    const bool is_word = !is_within && locate_word(session, at, arena, out);
+    if (!is_within && !is_word) {
         out->schema = at->schema;
         out->element = at->element;
         out->here = at->at;
+        if (at->row && at->row->kind == SCHEMA_REFERENCE && at->in_value) {
+            out->schema = at->row->child;
+            out->element = ir_walk_referent(scene, at->row, schema_field_const(at->row, at->element));
+        } else if (!span_equal(at->at, locate_name_place(session, at->schema, at->element))) {
+            return false;
+        }
     }
-    if (!is_word && at->row && at->row->kind == SCHEMA_REFERENCE && at->in_value) {
-        out->schema = at->row->child;
-        out->element = ir_walk_referent(scene, at->row, schema_field_const(at->row, at->element));
-    } else if (!is_word && !span_equal(at->at, locate_name_place(session, at->schema, at->element))) {
+    out->name = out->element ? ir_walk_name(out->schema, out->element) : STR("");
+    if (out->name.len == 0)
         return false;
-    }
-    if (!out->element || ir_walk_key(out->schema, out->element).len == 0)
-        return false;
-    out->name = ir_walk_key(out->schema, out->element);
     out->definition = locate_name_place(session, out->schema, out->element);
     if ((out->schema == &SCHEMA_VARIABLE || out->schema == &SCHEMA_PARAMETER) && !is_word) {
         out->scope = locate_scope(session, out->element, arena);
@@ -125,6 +153,7 @@ bool locate_name(struct session *session, const struct located *at, struct arena
     }
     struct users users = {session, arena, out->element, out};
     locate_walk(&SCHEMA_SCENE, scene, note_users, &users);
+    locate_named(session, note_named, &users);
     if (out->schema == &SCHEMA_PARAMETER || out->schema == &SCHEMA_VARIABLE)
         locate_word_uses(session, arena, out);
     return true;

@@ -82,6 +82,13 @@ struct located_name {
 bool locate_name(struct session *session, const struct located *at, struct arena *arena,
                  struct located_name *out);
 
+// ---- locate_paths.c: names in targets of tracks, and in whole names of bodies
+
+// Calls `visit` for each of them that names something: what, and the place of the name.
+typedef void locate_visit_named(void *context, const struct schema_element *schema, const void *element,
+                                span at);
+void locate_named(const struct session *session, locate_visit_named *visit, void *context);
+
 // ---- locate_words.c: names in expressions, of parameters and variables
 
 // The entry around an element of the written scene.

@@ -7,6 +7,7 @@
 #include "grammar/ir_formula.h"
 #include "grammar/ir_values.h"
 #include "grammar/ir_walk.h"
+#include "parser/tree/mend.h"
 
 #include <string.h>
 
@@ -161,18 +162,12 @@ static bool compute_part(struct computing *c, const struct reach *reach, str tex
 // #rrggbb
 static bool read_color(const struct computing *c, str text, struct ir_result *result) {
     const bool decodes = locate_scene(c->copies->session)->image.transfer == IR_TRANSFER_SRGB;
-    uint32_t hex = 0;
-    for (size_t i = 1; i < text.len; i++) {
-        if (char_hex(text.ptr[i]) < 0)
-            return false;
-        hex = hex << 4 | (uint32_t)char_hex(text.ptr[i]);
-    }
+    uint32_t hex;
+    if (!mend_hex_color(text, &hex))
+        return false;
     *result = (struct ir_result){.is_known = true, .type = EXPRESSION_TRIPLE, .value = {0, 0, 0, hex}};
-    for (uint32_t i = 0; i < 3; i++) {
-        const uint32_t byte = hex >> (16 - 8 * i) & 255;
-        result->value[i] = decodes ? srgb_decode_byte(byte) : byte / 255.0;
-    }
-    return text.len == 7;
+    srgb_of_hex(hex, decodes, result->value);
+    return true;
 }
 
 static bool compute(struct computing *c, const struct reach *reach, str text, struct ir_result *result) {

@@ -177,6 +177,14 @@ static void print_values(const struct values *values, struct strbuf *out) {
     strbuf_cstr(out, values->has_more ? ", ..." : "");
 }
 
+static bool is_of_frame(str text) {
+    str name;
+    for (size_t at = 0; expression_next_name(text, &at, &name);)
+        if (str_equal_cstr(name, "frame") || str_equal_cstr(name, "time"))
+            return true;
+    return false;
+}
+
 bool locate_print_value(const struct session *session, const struct located *at, struct arena *arena,
                         struct strbuf *out) {
     const struct ir_formula *formula = at->row && at->in_value ? formula_at(session, at) : NULL;
@@ -195,6 +203,9 @@ bool locate_print_value(const struct session *session, const struct located *at,
     print_values(&values, out);
     if (copies > 1)
         strbuf_format(out, " in %u copies", copies);
+    if (is_of_frame(formula->text))
+        strbuf_format(out, "%s in frame %d", copies > 1 ? "," : "",
+                      session->origin.written ? (int)session->origin.written->animation.frame : 0);
     return true;
 }
 

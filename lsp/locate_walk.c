@@ -6,8 +6,7 @@
 #include <string.h>
 
 const struct ir_scene *locate_scene(const struct session *session) {
-    const struct ir_copies *copies = session->origin.copies;
-    return session->scene && copies && copies->written ? copies->written : session->scene;
+    return session->scene && session->origin.copies ? session->origin.written : session->scene;
 }
 
 span locate_name_place(const struct session *session, const struct schema_element *schema,

@@ -172,9 +172,38 @@ json_t *server_prepare_rename(const struct request *request) {
     return server_range(request->server, request->session, bare(request->session, name.here));
 }
 
+// Names of bodies, lights and instances are unique in the scene, or in their object. *holds: the renamed one
+// is there.
+static bool is_taken_in(const struct schema_element *owner, const void *element,
+                        const struct located_name *renamed, str name, bool *holds) {
+    bool taken = false;
+    for (uint32_t i = 0; i < owner->row_count; i++) {
+        const struct schema_row *row = &owner->rows[i];
+        const struct ir_any_list list = ir_walk_list(row, element);
+        for (uint32_t k = 0; locate_has_entries(row) && k < list.count; k++) {
+            const void *item = ir_walk_item(row, list, k);
+            *holds |= item == renamed->element;
+            taken |= str_equal(ir_walk_name(row->child, item), name);
+        }
+    }
+    return taken;
+}
+
+static bool is_taken_by_neighbour(const struct session *session, const struct located_name *renamed,
+                                  str name) {
+    const struct ir_scene *scene = locate_scene(session);
+    bool holds = false;
+    bool taken = is_taken_in(&SCHEMA_SCENE, scene, renamed, name, &holds);
+    for (uint32_t i = 0; i < scene->objects.count && !holds; i++)
+        taken = is_taken_in(&SCHEMA_OBJECT, &scene->objects.items[i], renamed, name, &holds);
+    return holds && taken;
+}
+
 // Whether something else of the same kind has the name.
 static bool is_taken(const struct session *session, const struct located_name *renamed, str name) {
     const struct schema_element *schema = renamed->schema;
+    if (schema_key_row(schema) < 0)
+        return is_taken_by_neighbour(session, renamed, name);
     const struct schema_row *pool = ir_walk_pool(schema);
     if (!pool || locate_is_argument(schema, &renamed->scope)) // which may hide a parameter of the scene
         return false;

@@ -41,7 +41,7 @@ struct parser_input {
     struct arena *arena; // guarded inside parser_load
     const str *sets;     // --set options, "PATH=VALUE", in order
     uint32_t set_count;
-    bool keeps_written;        // origin.copies has the scene as it is written
+    bool keeps_written;        // origin.written is the scene as it is written
     bool whole;                // nothing is bound before its file is read: slower, with the same result
     struct timeline *timeline; // may be NULL
 };

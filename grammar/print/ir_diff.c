@@ -234,29 +234,22 @@ static uint32_t *visible(struct differ *d, const struct schema_row *row, struct 
     return index;
 }
 
-static str name_of(const struct schema_element *schema, const void *item) {
-    for (uint32_t i = 0; i < schema->row_count; i++) {
-        const struct schema_row *row = &schema->rows[i];
-        if (row->kind == SCHEMA_TEXT && (row->key || row->text == SCHEMA_TEXT_NAME))
-            return *(const str *)schema_field_const(row, item);
-    }
-    return STR("");
+static const struct ir_copies *copies_of(const struct lists *l, bool is_b) {
+    const struct ir_origin *origin = is_b ? l->d->b->origin : l->d->a->origin;
+    return origin ? origin->copies : NULL;
 }
 
 static str entry_path(const struct lists *l, bool is_b, uint32_t i) {
     struct differ *d = l->d;
     str path = join_path(d, is_b ? l->owner->path_b : l->owner->path_a, str_from(schema_yaml_key(l->row)));
-    str name = name_of(l->row->child, entry(l, is_b, i));
+    str name = ir_walk_name(l->row->child, entry(l, is_b, i));
     if (l->row->many == SCHEMA_NAMED_MAP)
         return join_path(d, path, name);
-    const struct ir_origin *origin = is_b ? d->b->origin : d->a->origin;
-    const struct ir_copies *copies = origin ? origin->copies : NULL;
+    const struct ir_copies *copies = copies_of(l, is_b);
     struct strbuf label;
-    strbuf_init(&label);
-    if (ir_copies_instance(copies, l->row, i) && name.len) {
-        strbuf_finish(&label);
+    if (ir_copies_instance(copies, l->row, i) && name.len)
         return name;
-    }
+    strbuf_init(&label);
     if (ir_copies_instance(copies, l->row, i)) {
         ir_copies_label(copies, l->row, i, &label);
         path = STR("");
@@ -281,15 +274,14 @@ static double likeness(void *context, uint32_t a, uint32_t b) {
     struct differ quiet = *l->d;
     struct pair pair = {.schema = l->row->child, .a = entry(l, false, a), .b = entry(l, true, b)};
     unsigned equal = 0, all = 0;
-    str name_a = name_of(l->row->child, pair.a), name_b = name_of(l->row->child, pair.b);
+    str name_a = ir_walk_name(l->row->child, pair.a), name_b = ir_walk_name(l->row->child, pair.b);
     quiet.quiet = true;
     // In a map each entry has a name, and only equal content shows that it was renamed.
     if (l->row->many == SCHEMA_NAMED_MAP)
         return same_element(l->d, l->row->child, pair.a, pair.b) ? 1 : -1;
     if (name_a.len && name_b.len)
         return -1;
-    const struct ir_copies *copies_a = l->d->a->origin ? l->d->a->origin->copies : NULL;
-    const struct ir_copies *copies_b = l->d->b->origin ? l->d->b->origin->copies : NULL;
+    const struct ir_copies *copies_a = copies_of(l, false), *copies_b = copies_of(l, true);
     if (!ir_copies_are_same(copies_a, ir_copies_instance(copies_a, l->row, a), copies_b,
                             ir_copies_instance(copies_b, l->row, b)))
         return -1;
@@ -307,14 +299,14 @@ static double likeness(void *context, uint32_t a, uint32_t b) {
 // What an entry says, and whose it is.
 static str content_of(const struct lists *l, bool is_b, uint32_t i) {
     struct differ *d = l->d;
-    const struct ir_origin *origin = is_b ? d->b->origin : d->a->origin;
+    const struct ir_copies *copies = copies_of(l, is_b);
     const str text = item_text(d, is_b ? d->b : d->a, l->row->child, entry(l, is_b, i));
-    const uint32_t instance = ir_copies_instance(origin ? origin->copies : NULL, l->row, i);
+    const uint32_t instance = ir_copies_instance(copies, l->row, i);
     if (!instance)
         return text;
     struct strbuf name;
     strbuf_init(&name);
-    ir_copies_instance_name(origin->copies, instance - 1, &name);
+    ir_copies_instance_name(copies, instance - 1, &name);
     const str both = arena_format(d->arena, "%.*s/%.*s", STR_ARG(strbuf_view(&name)), STR_ARG(text));
     strbuf_finish(&name);
     return both;
@@ -328,9 +320,9 @@ static void align_lists(struct lists *l) {
     ir_align_init(&l->align, d->arena, a_count, b_count);
     str *a_keys = ARENA_ARRAY(d->arena, str, a_count), *b_keys = ARENA_ARRAY(d->arena, str, b_count);
     for (uint32_t i = 0; i < a_count; i++)
-        a_keys[i] = name_of(l->row->child, entry(l, false, i));
+        a_keys[i] = ir_walk_name(l->row->child, entry(l, false, i));
     for (uint32_t i = 0; i < b_count; i++)
-        b_keys[i] = name_of(l->row->child, entry(l, true, i));
+        b_keys[i] = ir_walk_name(l->row->child, entry(l, true, i));
     ir_align_keys(&l->align, a_keys, b_keys);
     for (uint32_t i = 0; i < a_count; i++)
         a_keys[i] = l->align.b_of_a[i] < 0 ? content_of(l, false, i) : STR("");
@@ -365,11 +357,11 @@ static void diff_entry(struct lists *l, uint32_t a, uint32_t b, bool moved) {
                               .before = element_place(d->a, pair.a),
                               .after = element_place(d->b, pair.b)};
     if (l->row->many == SCHEMA_NAMED_MAP &&
-        !str_equal(name_of(pair.schema, pair.a), name_of(pair.schema, pair.b))) {
+        !str_equal(ir_walk_name(pair.schema, pair.a), ir_walk_name(pair.schema, pair.b))) {
         place.kind = IR_RENAMED;
         add(d, place);
         *ARENA_PUSH(d->arena, &d->renames) =
-            (struct rename){name_of(pair.schema, pair.a), name_of(pair.schema, pair.b)};
+            (struct rename){ir_walk_name(pair.schema, pair.a), ir_walk_name(pair.schema, pair.b)};
     }
     diff_rows(d, &pair);
     if (moved) {

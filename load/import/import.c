@@ -8,6 +8,7 @@
 #include "grammar/schema.h"
 #include "load/import/names.h"
 #include "load/import/place.h"
+#include "load/import/repeated.h"
 
 #include <math.h>
 
@@ -19,14 +20,26 @@ enum {
     SAMPLES_ROUGH = 16
 };
 
+// Where a node, and what is below it, is written.
+struct site {
+    uint32_t
+        object;    // 1 + its index among the scene's; 0: the scene; AGAIN: nowhere, what is written shows it
+    affine3 place; // the node's, in there
+};
+#define AGAIN UINT32_MAX
+
 struct importing {
     struct gltf_document *document;
     struct gltf *gltf;
     const struct import_options *options;
     struct arena *arena;
     struct ir_scene *out;
-    struct str_map bodies, cameras; // names that are taken; bodies and lights share theirs
-    struct str_map materials;
+    struct str_map cameras, materials, objects; // names that are taken
+    struct {
+        struct str_map
+            *items; // of the scene, and of each of its objects: those of bodies, lights and instances
+        uint32_t count, capacity;
+    } names;
     str *material_names;  // by material of the file; empty: not used so far
     struct str_map parts; // names of meshes: how many meshes have each
     double dimming;
@@ -101,11 +114,20 @@ static void put_materials(struct importing *im, const struct gltf_mesh *mesh, st
 
 // ---- models
 
-static void write_vector(struct ir_model *model, const char *row, vec3 *field, vec3 value, vec3 standard) {
+static void write_vector(struct ir_head *head, const struct schema_element *schema, const char *row,
+                         vec3 *field, vec3 value) {
+    const vec3 standard = *field;
     *field = value;
     if (!vec3_is_zero(vec3_sub(value, standard)))
-        write(&model->head, &SCHEMA_MODEL, row);
+        write(head, schema, row);
 }
+
+#define WRITE_PLACE(out, schema, place)                                                                      \
+    do {                                                                                                     \
+        write_vector(&(out)->head, schema, "scale", &(out)->scale, (place)->scale);                          \
+        write_vector(&(out)->head, schema, "rotation", &(out)->rotation, (place)->rotation);                 \
+        write_vector(&(out)->head, schema, "translation", &(out)->translation, (place)->translation);        \
+    } while (0)
 
 // The mesh's name if no other mesh has it and it does not look like "mesh 3" or "node 3"; else its number.
 static str part_name(struct importing *im, uint32_t mesh) {
@@ -123,56 +145,107 @@ static bool is_smooth(const struct gltf *gltf, const struct gltf_mesh *mesh) {
     return is;
 }
 
-static bool has_faces(const struct gltf *gltf, const struct gltf_mesh *mesh) {
-    uint64_t triangles = 0;
-    for (uint32_t i = mesh->first; i < mesh->first + mesh->count; i++)
-        triangles += gltf_triangle_count(gltf, &gltf->primitives.items[i]);
-    return triangles > 0;
-}
-
-static void put_model(struct importing *im, uint32_t index) {
-    const struct gltf_node *node = &im->gltf->nodes.items[index];
-    const struct gltf_mesh *mesh = &im->gltf->meshes.items[node->mesh];
-    struct import_place place = {{1, 1, 1}, {0, 0, 0}, {0, 0, 0}};
-    if (!has_faces(im->gltf, mesh))
-        return;
-    struct ir_model *model = ARENA_PUSH(im->arena, &im->out->models);
+static void put_model(struct importing *im, struct ir_models *models, const struct import_place *place,
+                      str part, str name, const struct gltf_mesh *mesh) {
+    struct ir_model *model = ARENA_PUSH(im->arena, models);
     schema_init(&SCHEMA_MODEL, model);
     model->material.index = IR_NO_INDEX;
-    model->name = import_name(&im->bodies, node->name.len ? node->name : mesh->name, "body");
+    model->name = name;
     model->mesh = (struct ir_reference){im->options->mesh, IR_NO_INDEX};
-    model->part = import_place_of(node->world, &place) ? part_name(im, node->mesh)
-                                                       : arena_format(im->arena, "node %u", index);
+    model->part = part;
     model->smooth = is_smooth(im->gltf, mesh);
     write(&model->head, &SCHEMA_MODEL, "name");
     write(&model->head, &SCHEMA_MODEL, "mesh");
     write(&model->head, &SCHEMA_MODEL, "part");
     if (model->smooth)
         write(&model->head, &SCHEMA_MODEL, "smooth");
-    write_vector(model, "scale", &model->scale, place.scale, (vec3){1, 1, 1});
-    write_vector(model, "rotation", &model->rotation, place.rotation, (vec3){0, 0, 0});
-    write_vector(model, "translation", &model->translation, place.translation, (vec3){0, 0, 0});
+    if (place)
+        WRITE_PLACE(model, &SCHEMA_MODEL, place);
     if (im->clay.name.len) {
         model->material = im->clay;
         write(&model->head, &SCHEMA_MODEL, "material");
     } else if (im->options->images) {
         put_materials(im, mesh, model);
     }
-    write(&im->out->head, &SCHEMA_SCENE, "model");
+}
+
+// ---- objects
+
+static struct ir_models *models_of(const struct importing *im, uint32_t object) {
+    return object ? &im->out->objects.items[object - 1].models : &im->out->models;
+}
+
+// 1 + its index. Without a name it is in place.
+static uint32_t add_object(struct importing *im, str name) {
+    struct ir_object *object = ARENA_PUSH(im->arena, &im->out->objects);
+    schema_init(&SCHEMA_OBJECT, object);
+    object->name = name;
+    str_map_init(ARENA_PUSH(im->arena, &im->names), im->arena);
+    return im->out->objects.count;
+}
+
+static void write_matrix(struct importing *im, struct ir_instance *instance, const affine3 *map) {
+    const double offset[3] = {map->offset.x, map->offset.y, map->offset.z};
+    for (int i = 0; i < 3; i++) {
+        struct ir_matrix_row *row = ARENA_PUSH(im->arena, &instance->matrix.rows);
+        const double *m = map->linear.m[i];
+        schema_init(&SCHEMA_MATRIX_ROW, row);
+        row->numbers = (struct ir_quad){m[0], m[1], m[2], offset[i]};
+        write(&row->head, &SCHEMA_MATRIX_ROW, "numbers");
+    }
+    write(&instance->matrix.head, &SCHEMA_MATRIX, "row");
+    write(&instance->head, &SCHEMA_INSTANCE, "matrix");
+}
+
+static void put_instance(struct importing *im, uint32_t in, const struct import_place *place, str name,
+                         uint32_t object) {
+    struct ir_object *items = im->out->objects.items;
+    struct ir_instance *instance = ARENA_PUSH(im->arena, in ? &items[in - 1].instances : &im->out->instances);
+    schema_init(&SCHEMA_INSTANCE, instance);
+    instance->material.index = IR_NO_INDEX;
+    instance->name = name;
+    instance->object = (struct ir_reference){items[object - 1].name, object - 1};
+    write(&instance->head, &SCHEMA_INSTANCE, "name");
+    write(&instance->head, &SCHEMA_INSTANCE, "object");
+    if (place->is_sheared)
+        write_matrix(im, instance, &place->matrix);
+    else
+        WRITE_PLACE(instance, &SCHEMA_INSTANCE, place);
+}
+
+// ---- bodies
+
+// The node, else its mesh.
+static str name_of(const struct importing *im, const struct gltf_node *node) {
+    return node->name.len || node->mesh == GLTF_NONE ? node->name : im->gltf->meshes.items[node->mesh].name;
+}
+
+static void put_body(struct importing *im, const struct site *site, uint32_t index, bool is_root) {
+    const struct gltf_node *node = &im->gltf->nodes.items[index];
+    const struct gltf_mesh *mesh = &im->gltf->meshes.items[node->mesh];
+    struct import_place place;
+    const bool has_room = import_place_of(site->place, &place);
+    const str part = has_room ? part_name(im, node->mesh) : arena_format(im->arena, "node %u", index);
+    const str name =
+        import_name(&im->names.items[site->object], is_root ? mesh->name : name_of(im, node), "body");
+    if (!has_room || !place.is_sheared) {
+        put_model(im, models_of(im, site->object), has_room ? &place : NULL, part, name, mesh);
+        return;
+    }
+    const uint32_t group = add_object(im, STR(""));
+    const str own = import_name(&im->names.items[group], mesh->name, "body");
+    put_model(im, models_of(im, group), NULL, part, own, mesh);
+    put_instance(im, site->object, &place, name, group);
 }
 
 // ---- cameras and lights
-
-static vec3 tidy(vec3 v) {
-    return (vec3){import_tidy(v.x), import_tidy(v.y), import_tidy(v.z)};
-}
 
 static void put_camera(struct importing *im, const struct gltf_node *node) {
     const struct gltf_camera *camera = &im->gltf->cameras.items[node->camera];
     struct ir_camera *out = ARENA_PUSH(im->arena, &im->out->cameras);
     schema_init(&SCHEMA_CAMERA, out);
     out->name = import_name(&im->cameras, node->name.len ? node->name : camera->name, "camera");
-    out->position = tidy(node->world.offset);
+    out->position = import_tidy_vector(node->world.offset);
     out->view = IR_VIEW_ROTATION;
     out->rotation = import_rotation(mat3_column(node->world.linear, 1), mat3_column(node->world.linear, 2));
     write(&out->head, &SCHEMA_CAMERA, "name");
@@ -194,31 +267,31 @@ static void put_camera(struct importing *im, const struct gltf_node *node) {
     write(&im->out->head, &SCHEMA_SCENE, "camera");
 }
 
-static void put_light(struct importing *im, const struct gltf_node *node) {
+static void put_light(struct importing *im, const struct site *site, const struct gltf_node *node) {
     const struct gltf_light *light = &im->gltf->lights.items[node->light];
-    struct ir_light *out = ARENA_PUSH(im->arena, &im->out->lights);
+    struct ir_lights *lights =
+        site->object ? &im->out->objects.items[site->object - 1].lights : &im->out->lights;
+    struct ir_light *out = ARENA_PUSH(im->arena, lights);
     schema_init(&SCHEMA_LIGHT, out);
-    out->name = import_name(&im->bodies, node->name.len ? node->name : light->name, "light");
+    out->name =
+        import_name(&im->names.items[site->object], node->name.len ? node->name : light->name, "light");
     write(&out->head, &SCHEMA_LIGHT, "name");
     if (light->kind == GLTF_LIGHT_DIRECTIONAL) {
-        const vec3 to = vec3_unit(vec3_neg(mat3_column(node->world.linear, 2)));
+        const vec3 to = vec3_unit(vec3_neg(mat3_column(site->place.linear, 2)));
         out->kind = IR_LIGHT_DIRECTION;
-        out->direction = vec3_is_zero(to) ? (vec3){0, 0, -1} : tidy(to);
+        out->direction = vec3_is_zero(to) ? (vec3){0, 0, -1} : import_tidy_vector(to);
         write(&out->head, &SCHEMA_LIGHT, "direction");
     } else {
-        out->position = tidy(node->world.offset);
+        out->position = import_tidy_vector(site->place.offset);
         out->falloff = IR_FALLOFF_INVERSE_SQUARE;
         write(&out->head, &SCHEMA_LIGHT, "position");
         write(&out->head, &SCHEMA_LIGHT, "falloff");
     }
-    if (light->kind == GLTF_LIGHT_SPOT)
-        gltf_lose(im->gltf, GLTF_LOSS_SPOT, light->node);
     out->intensity = import_tidy(fmin(light->intensity / PI / im->dimming, 1e6));
     out->color = (struct ir_color){.r = light->color[0], .g = light->color[1], .b = light->color[2]};
     write(&out->head, &SCHEMA_LIGHT, "intensity");
     if (light->color[0] != 1 || light->color[1] != 1 || light->color[2] != 1)
         write(&out->head, &SCHEMA_LIGHT, "color");
-    write(&im->out->head, &SCHEMA_SCENE, "light");
 }
 
 // ---- how strong lights are
@@ -324,9 +397,9 @@ static void keep_names(struct importing *im) {
     for (uint32_t i = 0; i < out->cameras.count; i++)
         import_name(&im->cameras, out->cameras.items[i].name, "camera");
     for (uint32_t i = 0; i < out->lights.count; i++)
-        import_name(&im->bodies, out->lights.items[i].name, "light");
+        import_name(&im->names.items[0], out->lights.items[i].name, "light");
     for (uint32_t i = 0; i < out->rectangles.count; i++)
-        import_name(&im->bodies, out->rectangles.items[i].name, "body");
+        import_name(&im->names.items[0], out->rectangles.items[i].name, "body");
     for (uint32_t i = 0; i < out->materials.count; i++)
         import_name(&im->materials, out->materials.items[i].name, "material");
 }
@@ -370,13 +443,59 @@ struct gltf_document *import_open(const struct assets_input *input, str path) {
     return gltf_document_open(&file, &identity);
 }
 
+// An instance where what is below the node is an object. Returns whether this is the node that the object is
+// made of; `made`: 1 + its index, 0: it was not made.
+static bool put_occurrence(struct importing *im, const struct gltf_node *node, struct site *site,
+                           uint32_t *made) {
+    const struct site around = *site;
+    const str own = name_of(im, node);
+    const bool is_first = *made == 0;
+    struct import_place place;
+    if (is_first)
+        *made = add_object(im, import_name(&im->objects, own, "object"));
+    import_place_of(around.place, &place);
+    put_instance(im, around.object, &place, import_name(&im->names.items[around.object], own, "group"),
+                 *made);
+    *site = (struct site){is_first ? *made : AGAIN, {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {0, 0, 0}}};
+    return is_first;
+}
+
+static void put_nodes(struct importing *im) {
+    const struct gltf *gltf = im->gltf;
+    const uint32_t *repeated = import_repeated(gltf, im->document->file.input->limits, im->arena);
+    struct site *sites = ARENA_ARRAY(im->arena, struct site, (size_t)gltf->nodes.count + 1);
+    uint32_t *made = ARENA_ARRAY(im->arena, uint32_t, (size_t)gltf->nodes.count + 1);
+    for (uint32_t i = 0; i < gltf->order_count; i++) {
+        const uint32_t index = gltf->order[i];
+        const struct gltf_node *node = &gltf->nodes.items[index];
+        const struct site *above = node->parent == GLTF_NONE ? NULL : &sites[node->parent];
+        struct site *site = &sites[index];
+        *site = above ? (struct site){above->object, affine3_mul(above->place, node->local)}
+                      : (struct site){0, node->local};
+        if (node->light != GLTF_NONE && gltf->lights.items[node->light].kind == GLTF_LIGHT_SPOT)
+            gltf_lose(im->gltf, GLTF_LOSS_SPOT, gltf->lights.items[node->light].node);
+        if (above && above->object == AGAIN)
+            continue;
+        const bool is_root = repeated[index] != 0;
+        if (is_root && !put_occurrence(im, node, site, &made[repeated[index]]))
+            continue;
+        if (node->mesh != GLTF_NONE && import_has_faces(gltf, node->mesh))
+            put_body(im, site, index, is_root);
+        if (node->camera != GLTF_NONE)
+            put_camera(im, node);
+        if (node->light != GLTF_NONE)
+            put_light(im, site, node);
+    }
+}
+
 void import_gltf(struct gltf_document *document, const struct import_options *options, struct arena *arena,
                  struct ir_scene *out) {
     struct importing im = {
         .document = document, .gltf = &document->gltf, .options = options, .arena = arena, .out = out};
     *out = (struct ir_scene){0};
     schema_init(&SCHEMA_SCENE, out);
-    str_map_init(&im.bodies, arena);
+    str_map_init(ARENA_PUSH(arena, &im.names), arena);
+    str_map_init(&im.objects, arena);
     str_map_init(&im.cameras, arena);
     str_map_init(&im.materials, arena);
     str_map_init(&im.parts, arena);
@@ -387,13 +506,5 @@ void import_gltf(struct gltf_document *document, const struct import_options *op
     put_head(&im);
     if (options->around)
         put_around(&im, import_lacks(document));
-    for (uint32_t i = 0; i < im.gltf->order_count; i++) {
-        const struct gltf_node *node = &im.gltf->nodes.items[im.gltf->order[i]];
-        if (node->mesh != GLTF_NONE)
-            put_model(&im, im.gltf->order[i]);
-        if (node->camera != GLTF_NONE)
-            put_camera(&im, node);
-        if (node->light != GLTF_NONE)
-            put_light(&im, node);
-    }
+    put_nodes(&im);
 }

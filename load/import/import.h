@@ -2,8 +2,9 @@
 // for, materials with their images.
 //
 // Each node that shows a mesh becomes one model. Nodes with the same mesh are models of the same part of the
-// file, which glint keeps once. If a node's matrix is not a scale, rotation and translation, its model refers
-// to the node as the file places it. docs/gltf.md says what becomes of what.
+// file, which glint keeps once. What occurs again is an object (repeated.h). If a node's matrix is not a
+// scale, rotation and translation, its model is in an instance with this matrix; one that is pressed flat
+// refers to the node as the file places it. docs/gltf.md says what becomes of what.
 //
 // Input: an open document without errors. Output: a scene whose rows are marked as written, for
 // grammar/print/. What has no counterpart is counted in the document's losses. Ownership: the arena's, which

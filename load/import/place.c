@@ -5,6 +5,8 @@
 #define DEGREES (180 / PI)
 #define SHEAR   1e-6 // cosine between two axes that still counts as a right angle
 #define LEAST   1e-18
+#define ROOM    1e-6  // below it, ten digits of a matrix no longer say what it does
+#define NOISE   1e-14 // of the largest number in a column of a matrix: what rounding leaves of 0
 
 double import_tidy(double value) {
     if (value == 0 || !isfinite(value))
@@ -43,6 +45,26 @@ static mat3 columns(vec3 x, vec3 y, vec3 z) {
     return (mat3){{{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}}};
 }
 
+vec3 import_tidy_vector(vec3 v) {
+    return (vec3){import_tidy(v.x), import_tidy(v.y), import_tidy(v.z)};
+}
+
+double import_room(mat3 linear) {
+    double sizes = 1;
+    for (int i = 0; i < 3; i++)
+        sizes *= vec3_length(mat3_column(linear, i));
+    return fabs(mat3_determinant(linear)) / sizes;
+}
+
+static affine3 tidy_matrix(affine3 map) {
+    for (int i = 0; i < 3; i++) {
+        const double noise = NOISE * vec3_max_abs(mat3_column(map.linear, i));
+        for (int k = 0; k < 3; k++)
+            map.linear.m[k][i] = fabs(map.linear.m[k][i]) < noise ? 0 : import_tidy(map.linear.m[k][i]);
+    }
+    return (affine3){map.linear, import_tidy_vector(map.offset)};
+}
+
 bool import_place_of(affine3 map, struct import_place *out) {
     vec3 axis[3];
     double size[3];
@@ -53,17 +75,19 @@ bool import_place_of(affine3 map, struct import_place *out) {
             return false;
         axis[i] = vec3_unit(axis[i]);
     }
+    out->is_sheared = false;
     for (int i = 0; i < 3; i++)
-        if (fabs(vec3_dot(axis[i], axis[(i + 1) % 3])) > SHEAR)
-            return false;
+        out->is_sheared |= fabs(vec3_dot(axis[i], axis[(i + 1) % 3])) > SHEAR;
+    out->matrix = tidy_matrix(map);
+    if (out->is_sheared)
+        return import_room(map.linear) >= ROOM;
     if (vec3_dot(axis[0], vec3_cross(axis[1], axis[2])) < 0) { // mirrored
         axis[0] = vec3_neg(axis[0]);
         size[0] = -size[0];
     }
-    out->scale = (vec3){import_tidy(size[0]), import_tidy(size[1]), import_tidy(size[2])};
+    out->scale = import_tidy_vector((vec3){size[0], size[1], size[2]});
     out->rotation = angles_of(columns(axis[0], axis[1], axis[2]));
-    out->translation =
-        (vec3){import_tidy(map.offset.x), import_tidy(map.offset.y), import_tidy(map.offset.z)};
+    out->translation = import_tidy_vector(map.offset);
     return true;
 }
 

@@ -61,7 +61,8 @@ static bool write_scene(const struct import_source *source, const struct assets_
     if (making.document->file.errors == 0)
         gltf_document_guarded(making.document, NULL, make, &making);
     // If the scene shows no mesh, that is all there is to report.
-    const bool good = making.document->file.errors == 0 && making.scene.models.count > 0 && !text->failed;
+    const bool good = making.document->file.errors == 0 &&
+                      (making.scene.models.count || making.scene.instances.count) && !text->failed;
     gltf_documents_finish(making.document);
     return good;
 }

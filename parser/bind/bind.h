@@ -8,6 +8,7 @@
 #ifndef GLINT_PARSER_BIND_BIND_H
 #define GLINT_PARSER_BIND_BIND_H
 
+#include "core/limits.h"
 #include "core/str_map.h"
 #include "diag/diag.h"
 #include "grammar/ir_origin.h"
@@ -36,6 +37,7 @@ struct bind_context {
     struct bind_list_keys keys;
     struct diag_sink *sink;
     const struct source_set *sources;
+    const struct limits *limits;
     struct ir_origin *origin;
     struct arena *arena;
     struct arena *scratch;
@@ -87,6 +89,8 @@ static inline uint64_t bind_bit(uint32_t row) {
 static inline void bind_poison(struct bind_frame *frame, uint32_t row) {
     bind_head(frame)->poisoned |= bind_bit(row);
 }
+// Whether a text is not longer than an expression may be; else that is reported.
+bool bind_fits(const struct bind_context *context, str text, span at);
 // A row of an element, or the element itself if `row` is NULL.
 static inline struct bind_subject bind_subject(const struct bind_frame *frame, const struct schema_row *row) {
     return (struct bind_subject){.frame = frame, .row = row, .index = -1};

@@ -12,11 +12,6 @@
 #include <math.h>
 #include <string.h>
 
-static bool is_hex_color(str text) {
-    uint32_t ignored;
-    return text.len == 7 && text.ptr[0] == '#' && mend_hex_digits(str_slice(text, 1, 7), &ignored);
-}
-
 // As in "wood.png".
 static bool is_file_name(str text) {
     size_t dot = text.len;
@@ -140,7 +135,7 @@ bool bind_color_text(struct bind_context *context, struct bind_subject subject, 
                      struct ir_color *out) {
     str text = tree_text(context->tree, node);
     uint32_t hex;
-    if (is_hex_color(text) && mend_hex_digits(str_slice(text, 1, 7), &hex)) {
+    if (mend_hex_color(text, &hex)) {
         *out = (struct ir_color){.is_hex = true, .hex = hex};
         return true;
     }

@@ -4,10 +4,24 @@
 #include "grammar/ir_formula.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
+#include "parser/tree/reader_text.h"
 
 #include <string.h>
 
+bool bind_fits(const struct bind_context *context, str text, span at) {
+    if (text.len <= context->limits->value[LIMIT_EXPRESSION_BYTES])
+        return true;
+    reader_limit_needs(context->sink, context->limits, LIMIT_EXPRESSION_BYTES,
+                       (span){at.source, at.begin, at.begin + 1}, "bytes in one expression",
+                       (double)text.len);
+    return false;
+}
+
 static void add(struct bind_context *context, struct bind_subject subject, str text, span at) {
+    if (!bind_fits(context, text, at)) {
+        bind_head(subject.frame)->poisoned |= bind_bit((uint32_t)(subject.row - subject.frame->schema->rows));
+        return;
+    }
     const char *const *names = schema_components(subject.row->kind);
     int component = IR_FORMULA_WHOLE;
     for (int i = 0; subject.component && names[i]; i++)

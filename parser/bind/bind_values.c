@@ -34,9 +34,12 @@ static bool take_scalar(struct bind_context *context, struct bind_subject subjec
     str rest = tree_text(context->tree, node);
     str value;
     rest = rest.ptr ? rest : STR("");
-    for (str all = rest; ir_values_next(&all, &value);)
+    for (str all = rest; ir_values_next(&all, &value);) {
         if (value.len == 0)
             return empty_value(context, subject, node);
+        if (!bind_fits(context, value, tree_span(context->tree, node)))
+            return false;
+    }
     if (text->len)
         strbuf_cstr(text, ", ");
     ir_values_normal(text, rest);

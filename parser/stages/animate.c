@@ -5,6 +5,7 @@
 #include "diag/codes/limit.h"
 
 #include "core/heap.h"
+#include "grammar/ir_copy.h"
 #include "parser/bind/say.h"
 
 #include <stdio.h>
@@ -319,9 +320,12 @@ void animate_scene(struct loader *loader, struct ir_scene *scene) {
     const uint32_t frame = (uint32_t)schema_find_row(&SCHEMA_ANIMATION, STR("frame"));
     struct evaluation *e = evaluation_begin(loader, scene);
     struct motion motion = {.loader = loader, .scene = scene, .animation = animation, .evaluation = e};
+    const bool is_animated = (scene->head.written & bind_bit(row)) && !(scene->head.poisoned & bind_bit(row));
+    if (loader->input->keeps_written && (e || is_animated)) // later stages move what is in place
+        loader->output->origin.written = ir_copy(scene, loader->input->arena);
     if (e)
         take_still(e);
-    if ((scene->head.written & bind_bit(row)) && !(scene->head.poisoned & bind_bit(row))) {
+    if (is_animated) {
         const bool has_frame = animation->head.written & bind_bit(frame);
         if (!animation->head.poisoned)
             move_scene(&motion, has_frame);

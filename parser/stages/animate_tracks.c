@@ -46,10 +46,6 @@ static bool wrong_count(const struct motion *motion, const struct moving *m, spa
     return false;
 }
 
-static bool read_hex(str text, uint32_t *hex) {
-    return text.len == 7 && text.ptr[0] == '#' && mend_hex_digits(str_slice(text, 1, 7), hex);
-}
-
 static bool bad_value(const struct motion *motion, span at, str text, const struct expression_fault *fault,
                       int32_t frame) {
     const char *suffix = frame > 0 ? arena_format(scratch(motion), ", in frame %d", (int)frame).ptr : "";
@@ -103,12 +99,8 @@ static bool compile(const struct motion *motion, const struct moving *m, str tex
     if (m->parameter && !is_of_frame(motion, text, at))
         return false;
     uint32_t hex;
-    if (m->color && read_hex(text, &hex)) {
-        for (int i = 0; i < 3; i++) {
-            const uint32_t byte = hex >> (16 - 8 * i) & 255;
-            out->constant[i] =
-                motion->scene->image.transfer == IR_TRANSFER_SRGB ? srgb_decode_byte(byte) : byte / 255.0;
-        }
+    if (m->color && mend_hex_color(text, &hex)) {
+        srgb_of_hex(hex, motion->scene->image.transfer == IR_TRANSFER_SRGB, out->constant);
         return true;
     }
     for (; out->count < CURVE_WIDTH_MOST && ir_values_next(&rest, &out->parts[out->count]); out->count++) {

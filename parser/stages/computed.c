@@ -9,10 +9,6 @@
 
 #include <string.h>
 
-static bool read_hex(str text, uint32_t *hex) {
-    return text.len == 7 && text.ptr[0] == '#' && mend_hex_digits(str_slice(text, 1, 7), hex);
-}
-
 static bool read_parts(struct evaluation *e, str text, uint32_t count, str what, span at,
                        struct computed *c) {
     bool good = true;
@@ -37,7 +33,7 @@ static bool read_parts(struct evaluation *e, str text, uint32_t count, str what,
 bool computed_read(struct evaluation *e, str text, str what, span at, struct computed *c) {
     struct diag_sink *sink = e->loader->input->sink;
     *c = (struct computed){.type = EXPRESSION_TRIPLE};
-    if (read_hex(text, &c->hex))
+    if (mend_hex_color(text, &c->hex))
         return true;
     if (str_starts_with(text, STR("#"))) {
         diag_add(sink, DIAG_BAD_COLOR, at, "%.*s: '%.*s' is not a colour", STR_ARG(what),
@@ -56,10 +52,7 @@ bool computed_read(struct evaluation *e, str text, str what, span at, struct com
 bool computed_value(struct evaluation *e, const struct computed *c, span at, double *value) {
     struct expression_fault fault;
     if (c->part_count == 0) {
-        for (int i = 0; i < 3; i++) {
-            const uint32_t byte = c->hex >> (16 - 8 * i) & 255;
-            value[i] = e->at.decodes ? srgb_decode_byte(byte) : byte / 255.0;
-        }
+        srgb_of_hex(c->hex, e->at.decodes, value);
         value[3] = c->hex;
         return true;
     }

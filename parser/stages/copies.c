@@ -3,8 +3,6 @@
 #include "diag/codes/limit.h"
 #include "parser/stages/objects.h"
 
-#include "core/heap.h"
-#include "grammar/ir_copy.h"
 #include "parser/bind/visit.h"
 #include "parser/tree/reader_text.h"
 

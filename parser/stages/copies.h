@@ -58,7 +58,7 @@ struct used_names {
 // A list of the scene.
 struct copied_list {
     uint32_t written;            // entries of the scene's list
-    struct copy_entry **entries; // of bodies and lights; NULL: all are as written; an item: this one is
+    struct copy_entry **entries; // of bodies, lights and instances; NULL: as it is written
     bool is_copied;              // some are not
     uint32_t *first;             // of each entry, among what was made
     struct ir_copy *made;
@@ -78,13 +78,16 @@ struct copying {
     uint32_t place_count, place_capacity;
     uint64_t steps;        // places so far
     bool is_over;          // the limit on them, which was reported
-    struct str_map cloned; // by what is cloned and the places that it depends on: 1 + index
+    struct str_map cloned; // by what is cloned and the values that it depends on: 1 + index
 };
 
 // copies_reach.c
 // A pool of the scene has items that clones replace.
 void copies_list_pool(struct evaluation *e, const struct schema_row *pool);
 struct copied_list *copies_list(const struct evaluation *e, const struct schema_row *row);
+// The entry that an item of a list comes from; NULL: it is as written.
+struct copy_entry *copies_entry(const struct evaluation *e, const struct schema_row *row,
+                                const struct ir_copy *copy);
 // The names that an entry sees come into reach, without values.
 void copies_enter_types(struct evaluation *e, const struct copy_entry *entry);
 // Gives a variable one of its values.
@@ -110,11 +113,6 @@ void copies_clear_rows(const struct schema_element *schema, void *item);
 // copies_fill.c
 // Gives the scene's lists what was made.
 void copies_fill(struct evaluation *e);
-
-// copies_reach.c
-// The entry that an item of a list comes from; NULL: it is as written.
-struct copy_entry *copies_entry(const struct evaluation *e, const struct schema_row *row,
-                                const struct ir_copy *copy);
 
 // copies_variables.c
 // Reads the variables and the condition of an entry. false: one of them is wrong (reported, or known).

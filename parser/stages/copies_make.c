@@ -1,9 +1,6 @@
 // The scene's lists get what `for`, `if` and instances make.
 #include "parser/stages/objects.h"
 
-#include "core/heap.h"
-#include "grammar/ir_copy.h"
-
 static struct diag_sink *sink(const struct evaluation *e) {
     return e->loader->input->sink;
 }
@@ -80,9 +77,6 @@ void copies_make(struct evaluation *e) {
     copies_push_places(e, NULL, 0); // none
     e->formula_count = e->scene->formulas->count;
     e->formulas = ARENA_ARRAY(scratch, struct copy_formula, e->formula_count);
-    // Later stages move what is in place, and the lists without copies are the scene's own.
-    const struct ir_scene *written =
-        e->loader->input->keeps_written ? ir_copy(e->scene, e->loader->input->arena) : NULL;
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++)
         if (copies_may(&SCHEMA_SCENE.rows[i]))
             list_written(e, &SCHEMA_SCENE.rows[i]);
@@ -105,7 +99,6 @@ void copies_make(struct evaluation *e) {
     copies->lists = ARENA_ARRAY(e->loader->input->arena, struct ir_copy *, SCHEMA_SCENE.row_count);
     copies->places = e->copying->places;
     copies->instances = &e->scene->instances;
-    copies->written = written;
     for (uint32_t i = 0; i < SCHEMA_SCENE.row_count; i++)
         copies->lists[i] = e->copying->lists[i].made;
     e->loader->output->origin.copies = copies;

@@ -25,10 +25,8 @@ struct copy_entry *copies_entry(const struct evaluation *e, const struct schema_
     const struct schema_row *instances = ir_walk_pool(&SCHEMA_INSTANCE);
     const struct copy_entry *instance =
         copies_entry(e, instances, &copies_list(e, instances)->made[copy->instance - 1]);
-    for (uint32_t i = 0; i < SCHEMA_OBJECT.row_count; i++)
-        if (SCHEMA_OBJECT.rows[i].child == row->child)
-            return instance->object->entries[i][copy->entry];
-    return NULL;
+    const struct schema_row *list = ir_walk_list_of(&SCHEMA_OBJECT, row->child);
+    return instance->object->entries[list - SCHEMA_OBJECT.rows][copy->entry];
 }
 
 bool copies_set(struct evaluation *e, const struct copy_entry *entry, uint32_t variable, uint32_t place) {
@@ -89,8 +87,7 @@ static bool give(struct evaluation *e, struct object *object, uint32_t number, c
         memcpy(value, given, EXPRESSION_WIDTH * sizeof *value);
         return true;
     }
-    return computed_value(e, &p->value, at, value) &&
-           (p->value.type != EXPRESSION_NUMBER || parameter_is_in_bounds(e, p, *value, at));
+    return computed_value(e, &p->value, at, value) && parameter_is_in_bounds(e, p, *value, at);
 }
 
 // What the instance gives is computed from what the instance sees, before the object's names take its place.
@@ -102,9 +99,8 @@ static bool compute_given(struct evaluation *e, const struct copy_entry *entry, 
         if (!ir)
             continue;
         const span at = ir_place_value(&e->loader->output->origin, &ir->head, &SCHEMA_WITH, "value");
-        const struct parameter *p = &object->parameters[i];
         if (!computed_value(e, &entry->given[i].value, at, value) ||
-            (p->value.type == EXPRESSION_NUMBER && !parameter_is_in_bounds(e, p, *value, at)))
+            !parameter_is_in_bounds(e, &object->parameters[i], *value, at))
             return false;
     }
     return true;

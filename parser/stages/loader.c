@@ -8,6 +8,7 @@
 struct bind_context loader_binding(struct loader *loader, struct diag_sink *sink, const struct tree *tree) {
     return (struct bind_context){.sink = sink,
                                  .sources = loader->input->sources,
+                                 .limits = loader->input->limits,
                                  .origin = &loader->output->origin,
                                  .arena = loader->input->arena,
                                  .scratch = &loader->scratch,

@@ -3,10 +3,6 @@
 #include "parser/stages/objects.h"
 #include "diag/codes/binding.h"
 
-#include "parser/bind/visit.h"
-
-#include <string.h>
-
 static struct diag_sink *sink(const struct evaluation *e) {
     return e->loader->input->sink;
 }
@@ -147,11 +143,11 @@ static void report_rings(struct evaluation *e) {
         ARENA_ARRAY(&e->loader->scratch, uint32_t, objects->count); // on the way from which, 1 + it
     for (uint32_t i = 0; i < objects->count; i++) {
         const struct object *object = &objects->items[i];
-        while (is_in_ring(object) && object->ir->name.len && !passed[object->number]) {
-            passed[object->number] = i + 1;
+        while (is_in_ring(object) && object->ir->name.len && !passed[object - objects->items]) {
+            passed[object - objects->items] = i + 1;
             object = next_in_ring(e, object->ir);
         }
-        if (is_in_ring(object) && object->ir->name.len && passed[object->number] == i + 1)
+        if (is_in_ring(object) && object->ir->name.len && passed[object - objects->items] == i + 1)
             report_ring(e, object);
     }
 }
@@ -167,7 +163,7 @@ void objects_read(struct evaluation *e) {
                                    .count = all->count,
                                    .queue = ARENA_ARRAY(scratch, struct object *, all->count)};
     for (uint32_t i = 0; i < all->count; i++)
-        e->objects->items[i] = (struct object){.ir = &all->items[i], .number = i};
+        e->objects->items[i] = (struct object){.ir = &all->items[i]};
     count_waits(e, &e->scene->instances);
     for (uint32_t i = 0; i < all->count; i++)
         count_waits(e, &all->items[i].instances);

@@ -13,7 +13,6 @@ enum object_state {
 struct object {
     const struct ir_object *ir;
     enum object_state state;
-    uint32_t number;                // in the scene's list
     const struct copy_entry *owner; // of one in place: the instance that it is written in
     double least;                   // so many things it makes at least, for each instance
     uint32_t waits;                 // for so many instances to be read

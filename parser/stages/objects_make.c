@@ -1,6 +1,4 @@
 // Instances are carried out: what their objects are made of is added to the scene's lists, depth first.
-#include "diag/codes/binding.h"
-#include "diag/codes/limit.h"
 #include "parser/stages/objects.h"
 
 #include "parser/tree/reader_text.h"

@@ -37,7 +37,7 @@ bool parameter_is_in_bounds(struct evaluation *e, const struct parameter *p, dou
     char digits[NUMBER_FORMAT_MAX], bound[NUMBER_FORMAT_MAX];
     const bool low = is_row_written(p, "min") && value < p->ir->min;
     const bool high = is_row_written(p, "max") && value > p->ir->max;
-    if (!low && !high)
+    if (p->value.type != EXPRESSION_NUMBER || (!low && !high))
         return true;
     if (e->is_quiet || diag_is_repeat(sink(e), DIAG_PARAMETER_VALUE, at))
         return false;

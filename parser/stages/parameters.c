@@ -3,9 +3,9 @@
 #include "parser/stages/evaluate.h"
 
 #include "core/heap.h"
-#include "core/number.h"
 #include "parser/bind/bind.h"
-#include "parser/bind/say.h"
+
+#include <string.h>
 
 enum {
     RING_NAMES_MOST = 8 // that a message lists
@@ -171,8 +171,7 @@ struct evaluation *evaluation_begin(struct loader *loader, struct ir_scene *scen
 
 static bool evaluate(struct evaluation *e, struct parameter *p, double *value) {
     return computed_value(e, &p->value, place_of(e, p, "value"), value) &&
-           (p->value.type != EXPRESSION_NUMBER ||
-            parameter_is_in_bounds(e, p, value[0], place_of(e, p, "value")));
+           parameter_is_in_bounds(e, p, *value, place_of(e, p, "value"));
 }
 
 bool evaluation_set_frame(struct evaluation *e, double frame, double time) {
@@ -187,9 +186,7 @@ bool evaluation_set_frame(struct evaluation *e, double frame, double time) {
         struct parameter *p = &e->items[index];
         double *value = e->values + (size_t)EXPRESSION_WIDTH * index;
         if (p->is_moved)
-            good = (p->value.type != EXPRESSION_NUMBER ||
-                    parameter_is_in_bounds(e, p, *value, place_of(e, p, "value"))) &&
-                   good;
+            good = parameter_is_in_bounds(e, p, *value, place_of(e, p, "value")) && good;
         else if (!evaluate(e, p, value))
             good = false, p->state = e->is_quiet ? p->state : PARAMETER_BAD;
     }

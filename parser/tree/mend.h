@@ -23,6 +23,8 @@ str mend_boolean(str text);
 str mend_color(struct arena *arena, str text, bool *safe);
 // false: not only hexadecimal digits.
 bool mend_hex_digits(str digits, uint32_t *value);
+// The same of #rrggbb.
+bool mend_hex_color(str text, uint32_t *value);
 // Characters that are not allowed in a name become '_'; a leading digit gets a '_' before it.
 str mend_name(struct arena *arena, str text);
 // `replacement` in the same quotes as `written`, the text of the file.

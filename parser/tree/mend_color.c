@@ -16,6 +16,10 @@ bool mend_hex_digits(str digits, uint32_t *value) {
     return true;
 }
 
+bool mend_hex_color(str text, uint32_t *value) {
+    return text.len == 7 && text.ptr[0] == '#' && mend_hex_digits(str_slice(text, 1, 7), value);
+}
+
 // The sixteen names of HTML 4, and some that are equally well known.
 static str named_color(struct arena *arena, str text) {
     static const struct {

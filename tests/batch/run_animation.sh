@@ -30,13 +30,13 @@ S
 # What the tracks say of frame 4, worked out by hand: a fifth of a turn, half of the way of an eased key, 0.4 of a colour.
 at4="--set camera.position=[5.706339097770921,0.5,1.8541019662496847] --set models[face].translation.x=1.4"
 at4="$at4 --set spheres[ball].radius=0.94"
-"$glint" inspect --ir scene.yaml --frame 4 >frame.ir
+"$glint" inspect --ir=evaluated scene.yaml --frame 4 >frame.ir
 matches 'position: \[5.70633909777092[0-9]*, 0.5, 1.8541019662496[0-9]*\]' frame.ir &&
     matches 'translation: \[1.4, 0, 0\]' frame.ir && matches 'radius: 0.94' frame.ir &&
     matches 'diffuse_color: \[0.1307' frame.ir && pass 'values of a frame' || fail 'values of a frame'
-"$glint" inspect --ir scene.xml --frame 4 | cmp -s - frame.ir && pass 'twins in a frame' || fail 'twins in a frame'
+"$glint" inspect --ir=evaluated scene.xml --frame 4 | cmp -s - frame.ir && pass 'twins in a frame' || fail 'twins in a frame'
 grep -q animation frame.ir && fail 'a frame has no animation' || pass 'a frame has no animation'
-"$glint" inspect --ir scene.yaml | grep -q 'frames: 20' && pass 'the scene keeps it' || fail 'the scene keeps it'
+"$glint" inspect --ir=evaluated scene.yaml | grep -q 'frames: 20' && pass 'the scene keeps it' || fail 'the scene keeps it'
 
 # Files that include each other: tracks of both.
 cat >base.yaml <<'S'
@@ -45,7 +45,7 @@ spheres: [{name: ball, center: [0, 0, 0], radius: 1}]
 animation: {frames: 5, tracks: {"spheres[ball].radius": 1 + frame}}
 S
 printf 'glint: 1\ninclude: [base.yaml]\nanimation: {frames: 10, tracks: {camera.fov: 30 + frame}}\ncamera: {fov: 30}\n' >both.yaml
-"$glint" inspect --ir both.yaml --frame 7 >both.ir && matches 'fov: 37' both.ir && matches 'radius: 8' both.ir &&
+"$glint" inspect --ir=evaluated both.yaml --frame 7 >both.ir && matches 'fov: 37' both.ir && matches 'radius: 8' both.ir &&
     pass 'tracks of two files' || fail 'tracks of two files'
 tells 'a frame after the end' 1 'no frame 20: the animation has 20 frames' "$glint" check scene.yaml --frame 20
 tells 'a frame of nothing' 1 'has no animation' "$glint" check still.yaml --frame 2
@@ -57,9 +57,9 @@ matches 'first=0 last=19 ' farm/job.sh && pass 'its frames' || fail 'its frames'
 
 # A scene that names the frame that it shows by itself has the others too.
 sed 's/^  rate: 10/&\n  frame: 4/' scene.yaml >shown.yaml
-"$glint" inspect --ir shown.yaml | cmp -s - frame.ir && pass 'the frame of the file' || fail 'the frame of the file'
-"$glint" inspect --ir shown.yaml --frame 9 >9.ir
-"$glint" inspect --ir scene.yaml --frame 9 | cmp -s - 9.ir && pass 'another one' || fail 'another one'
+"$glint" inspect --ir=evaluated shown.yaml | cmp -s - frame.ir && pass 'the frame of the file' || fail 'the frame of the file'
+"$glint" inspect --ir=evaluated shown.yaml --frame 9 >9.ir
+"$glint" inspect --ir=evaluated scene.yaml --frame 9 | cmp -s - 9.ir && pass 'another one' || fail 'another one'
 tells 'a farm for it' 0 - "$glint" farm slurm shown.yaml --frames all --chunk 5 -o 'f.%d.png' --folder shown -q
 matches 'first=0 last=19 ' shown/job.sh && pass 'all of its frames' || fail 'all of its frames'
 sed 's|radius: 0.9 + time/10|radius: 0.9 - time|' shown.yaml >small.yaml

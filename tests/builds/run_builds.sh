@@ -118,7 +118,7 @@ same "reports of all scenes" check scenes --format json
 same "reports of wrong scenes" check tests/invalid --format sarif
 scene=scenes/elements/models.glint.yaml
 same "inspect" inspect "$scene"
-same "the scene as it is understood" inspect --ir "$scene"
+same "the scene as it is understood" inspect --ir=evaluated "$scene"
 same "convert" convert "$scene" -
 same "format" format --check scenes
 same "schema" schema json

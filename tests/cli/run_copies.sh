@@ -56,8 +56,8 @@ expect "an answer for programs" 1 '"notes"' - "$glint" check wrong.yaml --format
 
 # A track moves all copies of its entry; what there is does not depend on the frame.
 { cat board.yaml; printf 'animation:\n  frames: 4\n  tracks: {"spheres[pawn].center.y": frame/2}\n'; } >moving.yaml
-expect "moved" 0 '    center: \[1.5, 1, 0\]' '' "$glint" inspect moving.yaml --frame 2 --ir
-expect "all" 0 '    center: \[0, 1, 2\]' '' "$glint" inspect moving.yaml --frame 2 --ir
+expect "moved" 0 '    center: \[1.5, 1, 0\]' '' "$glint" inspect moving.yaml --frame 2 --ir=evaluated
+expect "all" 0 '    center: \[0, 1, 2\]' '' "$glint" inspect moving.yaml --frame 2 --ir=evaluated
 sed 's/frame.2}/frame\/2, parameters.size: 2 + frame}/' moving.yaml >growing.yaml
 expect "a count that moves" 1 - 'how many copies there are depends on the frame' "$glint" check growing.yaml
 

@@ -44,6 +44,18 @@ for other in plain.yaml plain.xml plain.json; do
 done
 same_twins room.yaml room.pfm
 
+# The scene as it is written, in one text for both spellings, and what it comes to.
+"$glint" inspect --ir room.yaml --set parameters.seat=0.5 >room.ir
+for pattern in 'seat: 0.5' 'top: h [+] 0.55' 'center: \[0, [(]h [+] top[)]/2, -0.2\]' 'object: chair' 'if: i > 0' '[[] *-0.35, 0.35[]]'; do
+    expect "as written: $pattern" 0 "$pattern" - cat room.ir
+done
+"$glint" inspect --ir twin.xml --set parameters.seat=0.5 | cmp -s - room.ir && pass 'of twins, the same' || fail 'of twins, the same'
+cp room.ir again.yaml
+"$glint" inspect --ir again.yaml | cmp -s - room.ir && pass 'it is a scene, of the same text' || fail 'it is a scene, of the same text'
+expect 'evaluated' 0 'center: \[0, 0.775, -0.2\]' - "$glint" inspect --ir=evaluated room.yaml --set parameters.seat=0.5
+cp out.txt plain.ir
+expect 'nothing is computed' 1 - - grep -E '^    parameters|object: [a-z]|for:|if:' plain.ir
+
 # An instance that changes nothing, and steps that computers do exactly, change no bit.
 cat >plain.yaml <<'S'
 glint: 1
@@ -91,12 +103,12 @@ expect "on an instance" 0 - '' "$glint" check room.yaml --set 'camera.focus_on=l
 expect "not on what there is not" 1 - "there is no body 'left/tall/back'" "$glint" check room.yaml --set 'camera.focus_on="left/tall/back"' --set camera.aperture=0.1
 
 # Paths go to what is written, and move it wherever it is shown.
-expect "a value in an object" 0 'size: .0.45, 1, 0.05.' '' "$glint" inspect room.yaml --ir --set 'objects.chair.boxes[back].size.y=1'
-expect "a parameter of an object" 0 'center: .0, 0.7, 0.' '' "$glint" inspect room.yaml --ir --set 'objects.chair.parameters.h=0.7'
+expect "a value in an object" 0 'size: .0.45, 1, 0.05.' '' "$glint" inspect room.yaml --ir=evaluated --set 'objects.chair.boxes[back].size.y=1'
+expect "a parameter of an object" 0 'center: .0, 0.7, 0.' '' "$glint" inspect room.yaml --ir=evaluated --set 'objects.chair.parameters.h=0.7'
 expect "in an object in place" 0 - '' "$glint" check room.yaml --set 'instances[left].object.instances[small].scale=0.6'
 { cat room.yaml; printf 'animation:\n  frames: 4\n  tracks: {"objects.chair.boxes[back].center.x": frame/4, "instances[left].rotation.y": 10*frame}\n'; } >moving.yaml
-expect "a track moves all that is shown" 0 - - sh -c "'$glint' inspect moving.yaml --frame 2 --ir | grep -c 'center: .0.5, ' | grep -qx 4"
-expect "and instances" 0 'rotation: .0, 10, 0.' - "$glint" inspect moving.yaml --frame 1 --ir
+expect "a track moves all that is shown" 0 - - sh -c "'$glint' inspect moving.yaml --frame 2 --ir=evaluated | grep -c 'center: .0.5, ' | grep -qx 4"
+expect "and instances" 0 'rotation: .0, 10, 0.' - "$glint" inspect moving.yaml --frame 1 --ir=evaluated
 for frame in 0 3; do
     "$glint" render moving.yaml -q --device reference --frame $frame -o moved$frame.pfm
     "$glint" convert moving.yaml still$frame.yaml --expanded --frame $frame

@@ -61,7 +61,7 @@ expect "used by its parameters" 0 - '' "$glint" check user.yaml
 # What moves.
 { cat row.yaml; printf 'animation:\n  frames: 10\n  tracks: {parameters.pitch: 1 + frame/4}\n'; } >moving.yaml
 expect "a track moves a parameter" 0 '^  length  *4$' - "$glint" inspect moving.yaml --frame 4
-expect "which is written in the frame" 0 '^  pitch: 2$' - "$glint" inspect moving.yaml --frame 4 --ir
+expect "which is written in the frame" 0 '^  pitch: 2$' - "$glint" inspect moving.yaml --frame 4 --ir=evaluated
 expect "expanded, one frame" 2 - 'add --frame 0' "$glint" convert moving.yaml - --expanded
 expect "this one" 0 'Center x="2" y="0"' '' "$glint" convert moving.yaml - --expanded --frame 4
 expect "a frame alone" 2 - "only an '--expanded' scene stands still" "$glint" convert moving.yaml - --frame 4

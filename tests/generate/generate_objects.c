@@ -15,14 +15,6 @@ static void mark(void *element, const struct schema_element *schema, const char 
     ((struct ir_head *)element)->written |= UINT64_C(1) << schema_find_row(schema, str_from(row));
 }
 
-static const struct schema_row *row_of(const struct schema_element *schema,
-                                       const struct schema_element *child) {
-    for (uint32_t i = 0; i < schema->row_count; i++)
-        if (schema->rows[i].child == child)
-            return &schema->rows[i];
-    return NULL;
-}
-
 // Those that cameras are focused on keep the names that they have.
 static bool is_named(const struct schema_element *schema, const void *item) {
     const int row = schema_find_row(schema, STR("name"));
@@ -122,7 +114,7 @@ static void give(struct generator *g, struct ir_instance *instance) {
     static const char *const values[] = {"0.5", "1/4", "cos(60)"};
     struct ir_with with = {.name = STR("part"), .value = str_from(values[generate_below(g, 3)])};
     mark(&with, &SCHEMA_WITH, "name"), mark(&with, &SCHEMA_WITH, "value");
-    ir_walk_append(g->arena, row_of(&SCHEMA_INSTANCE, &SCHEMA_WITH), instance, &with);
+    ir_walk_append(g->arena, ir_walk_list_of(&SCHEMA_INSTANCE, &SCHEMA_WITH), instance, &with);
     mark(instance, &SCHEMA_INSTANCE, "with");
 }
 
@@ -147,7 +139,7 @@ static uint32_t add_object(struct generator *g, struct ir_object *object) {
 static void wrap(struct generator *g, struct ir_instance *instance) {
     struct ir_object group = {.head = {0}};
     schema_init(&SCHEMA_OBJECT, &group);
-    ir_walk_append(g->arena, row_of(&SCHEMA_OBJECT, &SCHEMA_INSTANCE), &group, instance);
+    ir_walk_append(g->arena, ir_walk_list_of(&SCHEMA_OBJECT, &SCHEMA_INSTANCE), &group, instance);
     mark(&group, &SCHEMA_OBJECT, "instance");
     *instance = new_instance(g, STR(""), add_object(g, &group), false);
 }
@@ -163,7 +155,7 @@ void generate_objects(struct generator *g, struct ir_scene *scene) {
         if (has_parameter) {
             struct ir_parameter parameter = {.name = STR("part"), .value = STR("0.75")};
             mark(&parameter, &SCHEMA_PARAMETER, "name"), mark(&parameter, &SCHEMA_PARAMETER, "value");
-            ir_walk_append(g->arena, row_of(&SCHEMA_OBJECT, &SCHEMA_PARAMETER), &object, &parameter);
+            ir_walk_append(g->arena, ir_walk_list_of(&SCHEMA_OBJECT, &SCHEMA_PARAMETER), &object, &parameter);
             mark(&object, &SCHEMA_OBJECT, "parameter");
         }
         take_entries(g, &object, has_parameter);

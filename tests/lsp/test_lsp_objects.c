@@ -170,6 +170,68 @@ static void renames_objects(void **state) {
     json_decref(rename_at(client, "main.yaml", HALL, "i*p|itch", "h", NULL));
 }
 
+static const char STAGE[] =
+    "glint: 1\n"
+    "parameters: {size: 0.5}\n"
+    "cameras:\n"
+    "  main: {position: [0, 1, 9], aperture: 0.1, focus_on: \"chairs[1]/seat\"}\n"
+    "  near: {position: [0, 1, 5], aperture: 0.1, focus_on: \"pawn[2]\"}\n"
+    "  far: {position: [0, 1, 50], aperture: 0.1, focus_on: \"instances[0]/leg\"}\n"
+    "lights: [{position: [9, 9, 9 + frame]}]\n"
+    "materials: {oak: {diffuse_color: [0.5, 0.3, 0.1]}}\n"
+    "objects:\n"
+    "  chair: {boxes: [{name: seat, center: [0, 1, 0], size: [1, 0.1, 1], material: oak}, {name: leg, "
+    "center: [0, "
+    "0, 0], size: 0.1}]}\n"
+    "instances: [{object: chair}, {name: chairs, for: {n: 2}, object: chair, translation: [2*n, 0, -3]}]\n"
+    "spheres: [{name: pawn, for: {i: 3}, center: [i, frame/8, i*frame], radius: size}, {for: {j: 3}, center: "
+    "[j, 5 + frame/8, 9], "
+    "radius: 0.25}]\n"
+    "animation:\n"
+    "  frames: 48\n"
+    "  frame: 16\n"
+    "  tracks:\n"
+    "    spheres[pawn].center.x: 0.3 + frame/100\n"
+    "    objects.chair.boxes[seat].size.y: 0.1 + frame/100\n"
+    "    instances[chairs].translation.y: frame/100\n"
+    "    \"materials.oak.diffuse_color\": 0.1, 0.2, frame/100\n"
+    "    cameras.near.fov: 40 + frame\n"
+    "    parameters.size: 0.4 + frame/1000\n";
+
+static const char STAGE_XML[] =
+    "<Scene glint=\"1\">\n"
+    "  <Camera aperture=\"0.1\" focus_on=\"ball\"><Position x=\"0\" y=\"0\" z=\"9\"/></Camera>\n"
+    "  <Light><Position x=\"9\" y=\"9\" z=\"9\"/></Light>\n"
+    "  <Sphere name=\"ball\" radius=\"0.5\"><Center x=\"0\" y=\"frame/4\" z=\"0\"/></Sphere>\n"
+    "  <Sphere name=\"block\" radius=\"0.5\"><Center x=\"3\" y=\"0\" z=\"0\"/></Sphere>\n"
+    "  <Animation frames=\"8\"><Track target=\"spheres[ball].radius\" value=\"0.5 + frame/9\"/></Animation>\n"
+    "</Scene>\n";
+
+// Also where other text has their names: the ways of tracks, and 'focus_on'.
+static void follows_names_in_text(void **state) {
+    struct lsp_client *client = *state;
+    client_open(client, "main.yaml", STAGE);
+    client_open(client, "main.xml", STAGE_XML);
+    expect_rename(client, "main.yaml", STAGE, "{name: |pawn", "11:17-21 4:56-60 16:12-16");
+    expect_rename(client, "main.yaml", STAGE, "spheres[pa|wn]", "11:17-21 4:56-60 16:12-16");
+    expect_rename(client, "main.yaml", STAGE, "\"pa|wn[2]", "11:17-21 4:56-60 16:12-16");
+    expect_rename(client, "main.yaml", STAGE, "{name: |seat", "9:25-29 3:66-70 17:24-28");
+    expect_rename(client, "main.yaml", STAGE, "{name: |leg", "9:92-95 5:69-72");
+    expect_rename(client, "main.yaml", STAGE, "{name: |chairs", "10:36-42 3:56-62 18:14-20");
+    expect_rename(client, "main.yaml", STAGE, "  c|hair:", "9:2-7 10:21-26 10:65-70 17:12-17");
+    expect_rename(client, "main.yaml", STAGE, "{|oak", "7:12-15 9:79-82 19:15-18");
+    expect_rename(client, "main.yaml", STAGE, "  n|ear:", "4:2-6 20:12-16");
+    expect_rename(client, "main.yaml", STAGE, "{|size", "1:13-17 11:75-79 21:15-19");
+    expect_rename(client, "main.xml", STAGE_XML, "focus_on=\"|ball", "3:16-20 1:35-39 5:47-51");
+    expect_places(client, "textDocument/definition", "main.yaml", STAGE, "chairs[1]/s|eat", "9:25-29");
+    expect_refusal(client, "main.yaml", STAGE, "{name: |seat", "leg", "already has this name");
+    expect_refusal(client, "main.yaml", STAGE, "{name: |pawn", "chairs", "already has this name");
+    json_decref(rename_at(client, "main.yaml", STAGE, "{name: |pawn", "seat", NULL)); // which is in an object
+    expect_hover(client, "main.yaml", STAGE, "9 |+ frame", "position.z = 25 in frame 16");
+    expect_hover(client, "main.yaml", STAGE, "5 |+ frame/8", "center.y = 7 in 3 copies, in frame 16");
+    expect_hover(client, "main.xml", STAGE_XML, "f|rame/4", "center.y = 0 in frame 0");
+}
+
 // What an expression means must stay.
 static void refuses_names_that_others_need(void **state) {
     static const char text[] =
@@ -312,16 +374,25 @@ static void lives_with_torn_text(void **state) {
         change(client, "main.xml", ++version, HALL_XML, length);
         ask_all(client, "main.xml", HALL_XML, length);
     }
+    for (size_t length = 0; length < sizeof STAGE; length += 3) {
+        change(client, "main.yaml", ++version, STAGE, length);
+        ask_all(client, "main.yaml", STAGE, length);
+    }
 }
 
 int main(int argc, char **argv) {
     program = argc > 1 ? argv[1] : "glint";
 #define TEST(name) cmocka_unit_test_setup_teardown(name, start, stop)
     const struct CMUnitTest tests[] = {
-        TEST(explains_objects),     TEST(finds_objects),
-        TEST(renames_objects),      TEST(refuses_names_that_others_need),
-        TEST(renames_in_all_files), TEST(outlines_objects),
-        TEST(lives_with_mistakes),  TEST(lives_with_torn_text),
+        TEST(explains_objects),
+        TEST(finds_objects),
+        TEST(renames_objects),
+        TEST(follows_names_in_text),
+        TEST(refuses_names_that_others_need),
+        TEST(renames_in_all_files),
+        TEST(outlines_objects),
+        TEST(lives_with_mistakes),
+        TEST(lives_with_torn_text),
     };
 #undef TEST
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -35,7 +35,7 @@ clean "scenes in XML" check -v "$source"/scenes/*.xml "$source"/scenes/elements/
 clean "the invalid corpus" check -v --limit messages=1000000 "$source"/tests/invalid/*/case.*
 clean "options" check "$source/scenes/tinyraytracer.glint.yaml" --set 'image.width=' --set 'camera.fov=200' \
     --set 'lights[0]={position: [1' --set 'spheres[0].material={albedo: 1}' --set 'nothing.at[all]=1'
-clean "the canonical dump" inspect --ir "$source/scenes/showcase.glint.xml"
+clean "the canonical dump" inspect --ir=evaluated "$source/scenes/showcase.glint.xml"
 clean "to YAML" convert "$source/scenes/showcase.glint.xml" showcase.yaml
 clean "to XML" convert "$source/scenes/showcase.glint.yaml" showcase.xml
 clean "to JSON" convert "$source/scenes/showcase.glint.yaml" showcase.json

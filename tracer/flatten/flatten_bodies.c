@@ -8,7 +8,6 @@
 #include "tracer/flatten/flatten_internal.h"
 
 #include <assert.h>
-#include <float.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>

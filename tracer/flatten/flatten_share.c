@@ -5,7 +5,6 @@
 #include "tracer/flatten/flatten_internal.h"
 
 #include <inttypes.h>
-#include <math.h>
 #include <stdlib.h>
 
 // The least that sharing must save on the device (docs/decisions/instances.md).

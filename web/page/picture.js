@@ -10,7 +10,7 @@ const GPU_MS = 60000; // for a GPU's compiler, and its picture
 
 const TRACER = ['--device', 'reference', '--as-file', '--no-cache', '--quiet', '--color', 'never'];
 
-// Reads what `glint inspect --ir` prints.
+// Reads what `glint inspect --ir=evaluated` prints.
 function understood(text) {
   const number = (name, normal, part = 'image') => {
     const found = new RegExp(`^${part}:(?:\\n +.*)*?\\n +${name}: (\\d+)$`, 'm').exec(text);
@@ -94,7 +94,7 @@ export class Picture {
   }
 
   async passes(path) {
-    const { status, out } = await this.run(['inspect', '--ir', '--skip-pixels', '--color', 'never', path]);
+    const { status, out } = await this.run(['inspect', '--ir=evaluated', '--skip-pixels', '--color', 'never', path]);
     if (status !== 0) {
       this.scene = null;
       this.told({ failed: '' }); // the findings say why

@@ -34,14 +34,17 @@ int cmd_inspect(struct cli *cli) {
     struct strbuf text;
     struct asset_store *store = asset_store_create();
     struct session_options options = cli_session_options(cli, cli->operands[0]);
-    options.text_only = cli->options.ir;
+    options.text_only = cli->options.ir != CLI_IR_NONE;
+    options.keeps_written = cli->options.ir == CLI_IR_WRITTEN;
     options.lint = LINT_ALL;
     if (options.pixels == ASSETS_KEEP_PIXELS)
         options.pixels = ASSETS_CHECK_PIXELS;
     strbuf_init(&text);
     session_load(&session, &options, store);
     bool good = session.state == SESSION_LOADED && session.sink.errors == 0;
-    if (good && cli->options.ir) {
+    if (good && cli->options.ir == CLI_IR_WRITTEN) {
+        ir_dump(session.origin.written ? session.origin.written : session.scene, &text);
+    } else if (good && cli->options.ir) {
         ir_expand_instances(session.scene, &session.arena);
         ir_dump(session.scene, &text);
     } else if (good) {
