@@ -134,7 +134,7 @@ static struct diag *find_repeat(struct diag_sink *sink, diag_code code, span at)
 
 bool diag_is_repeat(struct diag_sink *sink, diag_code code, span at) {
     struct diag *item = sink->repeated.count ? find_repeat(sink, code, at) : NULL;
-    if (item)
+    if (item && item - sink->items >= sink->settled)
         item->repeats++;
     return item != NULL;
 }

@@ -93,6 +93,7 @@ struct diag_sink {
         uint32_t count, capacity;
         bool is_sorted;
     } repeated;           // of which there are copies: diag_repeats
+    uint32_t settled;     // so many of the first items do not count what repeats them
     uint64_t search_left; // what searching for suggestions may still cost (core/nearest.h)
     struct diag spare;    // stands for a diagnostic that was dropped
     bool last_kept;       // whether notes, help and fix have a diagnostic to belong to

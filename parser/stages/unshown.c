@@ -102,6 +102,7 @@ void unshown_judge(struct loader *loader, struct ir_scene *scene) {
     beside->origin.formulas = scene->formulas;
     loader->output = beside;
     loader->is_beside = true;
+    loader->input->sink->settled = loader->input->sink->count; // it is said again
     merge_compact(loader, scene);
     animate_scene(loader, scene);
     merge_compact(loader, scene);
