@@ -372,6 +372,46 @@ static bool is_component(struct bind_context *context, struct bind_frame *frame,
     return false;
 }
 
+// "0, 0, 1" of x="0" y="0" z="1"
+static str attributes_in_order(struct bind_context *context, tree_index element) {
+    str list = STR("");
+    for (tree_index key = tree_first(context->tree, element); key; key = tree_next_key(context->tree, key))
+        if (bind_kind(context, tree_value(context->tree, key)) == TREE_SCALAR)
+            list = arena_format(context->scratch, "%.*s%s%.*s", STR_ARG(list), list.len ? ", " : "",
+                                STR_ARG(say_text(context->scratch,
+                                                 tree_text(context->tree, tree_value(context->tree, key)))));
+    return list;
+}
+
+// <Value x="0" y="0" z="1"/> for what XML writes as text: value="0, 0, 1", values="[0, 0, 1], [2, 0, 1]".
+// Reported once.
+static bool is_values(struct bind_context *context, struct bind_frame *frame, tree_index key, str snake) {
+    const struct schema_row *row = frame->schema->rows;
+    const struct schema_row *end = row + frame->schema->row_count;
+    while (row < end && !(schema_has_values(row) && snake.len + 1 >= strlen(row->name) &&
+                          str_starts_with(str_from(row->name), snake)))
+        row++;
+    if (row == end || bind_kind(context, tree_value(context->tree, key)) != TREE_MAP)
+        return false;
+    const uint64_t bit = bind_bit((uint32_t)(row - frame->schema->rows));
+    if (frame->guessed & bit)
+        return true;
+    str text = STR("");
+    for (tree_index k = key; k; k = tree_next_key(context->tree, k)) {
+        const str one = attributes_in_order(context, tree_value(context->tree, k));
+        if (one.len && str_equal(tree_text(context->tree, k), tree_text(context->tree, key)))
+            text =
+                arena_format(context->scratch, row->text == SCHEMA_TEXT_LIST ? "%.*s%s[%.*s]" : "%.*s%s%.*s",
+                             STR_ARG(text), text.len ? ", " : "", STR_ARG(one));
+    }
+    if (!text.len)
+        return false;
+    frame->guessed |= bit;
+    add_unknown(context, frame, key);
+    diag_help(context->sink, "write %s=\"%.*s\"", row->name, STR_ARG(text));
+    return true;
+}
+
 // <Material ref="red"/> instead of the name of a material.
 static bool is_reference(struct bind_context *context, struct bind_frame *frame, tree_index key) {
     static const char *const words[] = {"ref", "id", "idref", "href", "use", "link"};
@@ -437,7 +477,7 @@ struct bind_meant bind_unknown_name(struct bind_context *context, struct bind_fr
     struct mend_search search = search_rows(context, frame, text);
     if (is_mixed(context, frame, key) || is_glued(context, frame, key) ||
         is_wrapper(context, frame, key, search.snake, &meant) || is_reference(context, frame, key) ||
-        is_rest(context, key))
+        is_values(context, frame, key, search.snake) || is_rest(context, key))
         return meant;
     const struct schema_row *near = search.best ? &frame->schema->rows[search.best_id] : NULL;
     bool exact = near && search.distance == 0;
