@@ -88,6 +88,11 @@ void json_write_text(struct json_writer *writer, const char *key, str value) {
     put_string(writer->out, value);
 }
 
+void json_write_literal(struct json_writer *writer, const char *key, str value) {
+    begin_value(writer, key);
+    strbuf_str(writer->out, value);
+}
+
 void json_write_integer(struct json_writer *writer, const char *key, uint64_t value) {
     begin_value(writer, key);
     strbuf_format(writer->out, "%llu", (unsigned long long)value);

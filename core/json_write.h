@@ -32,6 +32,8 @@ void json_close_object(struct json_writer *writer);
 void json_open_list(struct json_writer *writer, const char *key);
 void json_close_list(struct json_writer *writer);
 void json_write_text(struct json_writer *writer, const char *key, str value);
+// A value that is JSON already.
+void json_write_literal(struct json_writer *writer, const char *key, str value);
 void json_write_integer(struct json_writer *writer, const char *key, uint64_t value);
 // null if it is infinite or not a number; else the fewest digits that read back to the same double.
 void json_write_real(struct json_writer *writer, const char *key, double value);

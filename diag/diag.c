@@ -134,7 +134,7 @@ static struct diag *find_repeat(struct diag_sink *sink, diag_code code, span at)
 
 bool diag_is_repeat(struct diag_sink *sink, diag_code code, span at) {
     struct diag *item = sink->repeated.count ? find_repeat(sink, code, at) : NULL;
-    if (item)
+    if (item && item - sink->items >= sink->settled)
         item->repeats++;
     return item != NULL;
 }
@@ -205,6 +205,20 @@ static str copy_text(struct diag_sink *sink, str text) {
     if (copy && text.len)
         memcpy(copy, text.ptr, text.len);
     return copy ? (str){copy, text.len} : STR("");
+}
+
+void diag_with(struct diag_sink *sink, str name, str value) {
+    struct diag *item = last(sink);
+    struct diag_value *with = item ? arena_try_alloc(&sink->arena, sizeof *with) : NULL;
+    if (!with)
+        return;
+    *with = (struct diag_value){.name = copy_text(sink, name), .value = copy_text(sink, value)};
+    if (!with->name.len || !with->value.len)
+        return;
+    struct diag_value **end = &item->with;
+    while (*end)
+        end = &(*end)->next;
+    *end = with;
 }
 
 void diag_fix(struct diag_sink *sink, bool safe, span at, str replacement) {
@@ -306,6 +320,8 @@ static void drop_repeats(struct diag_sink *sink, uint32_t *slots, size_t slot_co
 static void note_repeats(struct diag_sink *sink) {
     for (uint32_t i = 0; i < sink->count; i++) {
         struct diag *item = &sink->items[i];
+        if (item->repeats || (item->with && !item->copies))
+            item->copies = 1 + item->repeats;
         if (item->repeats)
             diag_note_to(sink, item, SPAN_NONE, "so it is with %u more of its copies", item->repeats);
         item->repeats = 0;
@@ -350,6 +366,8 @@ static void copy_diag(struct diag_sink *into, const struct diag *d) {
     copy->severity = d->severity;
     for (const struct diag_related *n = d->notes; n; n = n->next)
         diag_note(into, n->at, "%.*s", STR_ARG(n->message));
+    for (const struct diag_value *v = d->with; v; v = v->next)
+        diag_with(into, v->name, v->value);
     if (d->help.len)
         diag_help(into, "%.*s", STR_ARG(d->help));
     if (d->has_fix)

@@ -52,6 +52,13 @@ struct diag_related {
     struct diag_related *next;
 };
 
+// A name in reach with its value, which a message about a copy gives.
+struct diag_value {
+    str name;
+    str value; // as expressions write it: 3, true, [1, 2, 3], #c08050
+    struct diag_value *next;
+};
+
 struct diag {
     diag_code code;
     enum diag_severity severity; // the code's own, unless a policy changed it (diag/diag_policy.h)
@@ -60,6 +67,8 @@ struct diag {
     struct diag_related *notes; // in the order they were added
     str help;                   // empty: none
     uint32_t repeats;           // further ones like it, in copies of what it is about
+    uint32_t copies;            // so many have it, after diag_sort; 0: it is about none
+    struct diag_value *with;    // in the first of them
     bool has_fix;
     bool fix_is_safe; // the only possible meaning; else a suggestion
     span fix_at;
@@ -84,6 +93,7 @@ struct diag_sink {
         uint32_t count, capacity;
         bool is_sorted;
     } repeated;           // of which there are copies: diag_repeats
+    uint32_t settled;     // so many of the first items do not count what repeats them
     uint64_t search_left; // what searching for suggestions may still cost (core/nearest.h)
     struct diag spare;    // stands for a diagnostic that was dropped
     bool last_kept;       // whether notes, help and fix have a diagnostic to belong to
@@ -117,6 +127,8 @@ void diag_note(struct diag_sink *sink, span at, const char *format, ...)
 // As diag_note, for a diagnostic that was added before.
 void diag_note_to(struct diag_sink *sink, struct diag *item, span at, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+// It is about a copy, and one of the values with which it is.
+void diag_with(struct diag_sink *sink, str name, str value);
 void diag_help(struct diag_sink *sink, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void diag_fix(struct diag_sink *sink, bool safe, span at, str replacement);
 // Another fix: a file that is created.

@@ -12,6 +12,7 @@ enum {
     FINDING_BYTES = 550, // average per kept finding in the longest format: 100 stay below 64 KB
     FINDING_OVERHEAD = 430,
     NOTE_OVERHEAD = 300,
+    VALUE_OVERHEAD = 10,
     FIX_OVERHEAD = 400,
     LINE_BYTES_MAX = 400,
 };
@@ -102,6 +103,17 @@ static void add_notes(struct adder *adder, struct report_finding *finding, const
     }
 }
 
+static void add_values(struct adder *adder, struct report_finding *finding, const struct diag *d) {
+    struct arena *arena = &adder->scene->arena;
+    struct diag_value **end = &finding->with;
+    for (const struct diag_value *v = d->with; v; v = v->next, end = &(*end)->next) {
+        *end = ARENA_NEW(arena, struct diag_value);
+        **end = (struct diag_value){.name = arena_copy(arena, v->name), .value = arena_copy(arena, v->value)};
+        adder->bytes += VALUE_OVERHEAD + v->name.len + v->value.len;
+    }
+    finding->copies = d->copies;
+}
+
 // If the finding itself is not in a scene, the place that names its file is.
 static str scene_path_of(struct adder *adder, const struct diag *d) {
     const struct report_input *input = adder->input;
@@ -149,6 +161,7 @@ static void add_finding(struct adder *adder, const struct diag *d) {
         place_in_scene(adder, &finding, place);
     finding.scene_path = scene_path_of(adder, d);
     add_notes(adder, &finding, d);
+    add_values(adder, &finding, d);
     if (finding.has_fix) {
         finding.fix_at = place_of(adder, source_locate(adder->input->sources, d->fix_at));
         finding.fix_text = arena_copy(arena, d->fix_text);

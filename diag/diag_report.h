@@ -35,6 +35,8 @@ struct report_finding {
     str line_text; // the line, trimmed: what a fingerprint relies on when lines move
     struct report_note *notes;
     uint32_t note_count;
+    struct diag_value *with; // as in struct diag
+    uint32_t copies;
     bool has_fix;
     bool fix_is_safe;
     struct report_place fix_at;

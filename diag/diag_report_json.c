@@ -37,6 +37,8 @@ static void finding(struct json_writer *w, const struct report_finding *f) {
         }
         json_close_list(w);
     }
+    if (f->copies)
+        report_copies(w, f);
     if (f->has_fix) {
         json_open_object(w, "fix");
         json_write_boolean(w, "safe", f->fix_is_safe);

@@ -156,6 +156,11 @@ static void result(struct json_writer *w, const struct report_item *item, uint32
     related(w, f);
     fix(w, f);
     fingerprint(w, item);
+    if (f->copies) {
+        json_open_object(w, "properties");
+        report_copies(w, f);
+        json_close_object(w);
+    }
     json_close_object(w);
 }
 

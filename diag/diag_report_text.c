@@ -38,6 +38,19 @@ const char *report_severity(const struct report_finding *finding) {
     return diag_severity_name(finding->severity);
 }
 
+void report_copies(struct json_writer *w, const struct report_finding *finding) {
+    if (finding->with)
+        json_open_object(w, "with");
+    for (const struct diag_value *v = finding->with; v; v = v->next)
+        if (v->value.ptr[0] == '#') // a colour; other values are JSON
+            json_write_text(w, v->name.ptr, v->value);
+        else
+            json_write_literal(w, v->name.ptr, v->value);
+    if (finding->with)
+        json_close_object(w);
+    json_write_integer(w, "copies", finding->copies);
+}
+
 void report_markup(struct strbuf *out, str s) {
     struct strbuf text;
     strbuf_init(&text);

@@ -2,6 +2,7 @@
 #ifndef GLINT_DIAG_DIAG_REPORT_TEXT_H
 #define GLINT_DIAG_DIAG_REPORT_TEXT_H
 
+#include "core/json_write.h"
 #include "diag/diag_report.h"
 
 // "scene.yaml:4:12: error: message [E203]", with control characters shown as '?'; no line end.
@@ -13,6 +14,8 @@ void report_counts(struct strbuf *out, uint32_t errors, uint32_t warnings, uint3
 // Text for XML 1.0, which allows no control character, escaped or not, and neither U+FFFE nor U+FFFF, which
 // are valid in UTF-8: each becomes '?'.
 void report_markup(struct strbuf *out, str s);
+// "with": {"i": 3}, "copies": 2, of a finding about copies.
+void report_copies(struct json_writer *writer, const struct report_finding *finding);
 // "error", "warning", "note".
 const char *report_severity(const struct report_finding *finding);
 

@@ -201,8 +201,8 @@ int schema_word(const char *const *words, const char *text);
 int schema_find_yaml(const struct schema_element *element, str key, bool *is_single);
 // Index of the row that an XML child element names, or -1.
 int schema_find_child(const struct schema_element *element, str name);
-// Index of the row that other programs call `name` (snake_case), or -1.
-int schema_find_also(const struct schema_element *element, str name);
+// Index of the row that other programs call `name` (snake_case), or one so many letters off; or -1.
+int schema_find_also(const struct schema_element *element, str name, unsigned distance);
 // Index of the short row, of that for a sequence, or of the key row, or -1.
 int schema_short_row(const struct schema_element *element);
 int schema_list_row(const struct schema_element *element);

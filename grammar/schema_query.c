@@ -2,6 +2,7 @@
 #include "grammar/schema.h"
 
 #include "core/arena.h"
+#include "core/nearest.h"
 #include "core/number.h"
 #include "core/ranges.h"
 #include "core/vec3.h"
@@ -172,13 +173,14 @@ int schema_find_child(const struct schema_element *element, str name) {
     return -1;
 }
 
-int schema_find_also(const struct schema_element *element, str name) {
+int schema_find_also(const struct schema_element *element, str name, unsigned distance) {
     for (uint32_t i = 0; i < element->row_count; i++) {
         str rest = str_from(element->rows[i].also);
         while (rest.len) {
             const char *blank = memchr(rest.ptr, ' ', rest.len);
             size_t end = blank ? (size_t)(blank - rest.ptr) : rest.len;
-            if (str_equal(str_slice(rest, 0, end), name))
+            const str word = str_slice(rest, 0, end);
+            if (str_equal(word, name) || (distance && nearest_distance(word, name) <= distance))
                 return (int)i;
             rest = str_slice(rest, blank ? end + 1 : end, rest.len);
         }

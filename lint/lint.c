@@ -62,6 +62,8 @@ const struct lint_rule lint_rules[] = {
     {DIAG_STRETCHED, lint_panorama, LINT_CHEAP},
     // For smooth meshes that refract: one pass over the triangles.
     {DIAG_COARSE_GLASS, lint_coarse_glass, LINT_ALL},
+    // One pass over bodies, lights and instances.
+    {DIAG_SCALED_LAW, lint_scaled, LINT_ALL},
     {.run = NULL},
 };
 

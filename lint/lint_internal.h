@@ -157,5 +157,6 @@ void lint_sky_dark(struct lint *lint);
 void lint_panel_away(struct lint *lint); // rules_panel.c
 void lint_panel_in_plane(struct lint *lint);
 void lint_unused_value(struct lint *lint); // rules_effect.c
+void lint_scaled(struct lint *lint);       // rules_scaled.c
 
 #endif

@@ -78,7 +78,17 @@ static int compare_keys(const void *a, const void *b) {
     return x->body < y->body ? -1 : x->body > y->body;
 }
 
-static void report_repeat(struct lint *lint, const struct lint_body *body, const struct lint_body *other) {
+// Of two copies that which is written first, so that copies of two entries are reported at one of them.
+static bool comes_first(const struct lint *lint, const struct lint_body *a, const struct lint_body *b) {
+    const span x = lint_place(lint, a), y = lint_place(lint, b);
+    if ((!lint_is_copy(lint, a) && !lint_is_copy(lint, b)) || x.source != y.source || x.begin == y.begin)
+        return a < b;
+    return x.begin < y.begin;
+}
+
+static void report_repeat(struct lint *lint, const struct lint_body *one, const struct lint_body *two) {
+    const struct lint_body *other = comes_first(lint, one, two) ? one : two;
+    const struct lint_body *body = other == one ? two : one;
     const span at = lint_place(lint, body), there = lint_place(lint, other);
     const bool is_one_entry = at.source == there.source && at.begin == there.begin; // both are its copies
     const str words = lint_words(lint, body);
@@ -209,8 +219,8 @@ static bool visit_own(void *context, uint32_t first, uint32_t count) {
 }
 
 static void report(struct search *s) {
-    const struct lint_body *first = s->a < s->b ? s->a : s->b;
-    const struct lint_body *second = s->a < s->b ? s->b : s->a;
+    const struct lint_body *first = comes_first(s->lint, s->a, s->b) ? s->a : s->b;
+    const struct lint_body *second = first == s->a ? s->b : s->a;
     struct lint *lint = s->lint;
     diag_add(lint->sink, DIAG_COINCIDENT, lint_place(lint, second),
              "faces of %.*s and of %.*s lie in the same plane and overlap: only one of them is seen there",

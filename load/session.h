@@ -89,6 +89,7 @@ struct session {
     const struct ir_image *image; // the scene's, with the options' size and samples
     double unused_error;          // the scene's, if no pixel ends by it; 0: it has none, or pixels do
     struct assets assets;
+    struct assets unshown; // of objects that nothing shows, while they are judged
     struct scene resolved; // what scene and assets mean together; without assets: nothing
     bool unsettled;        // pixels are still being decoded, and nothing has failed so far
     enum session_state state;

@@ -218,6 +218,21 @@ static void load_assets(struct session *session, struct asset_store *store) {
     session->assets_seconds = clock_seconds() - start;
 }
 
+// The same for objects that nothing shows.
+static void judge_unshown(struct session *session, struct asset_store *store,
+                          const struct parser_output *unshown) {
+    struct assets_input input = session_assets_input(session);
+    struct scene *scene = ARENA_NEW(&session->arena, struct scene);
+    input.scene = unshown->scene;
+    input.origin = &unshown->origin;
+    input.pixels_later = false;
+    assets_load(store, &input, ASSETS_SKIP_PIXELS, &session->unshown);
+    scene_build(unshown->scene, &session->unshown, &session->arena, scene);
+    scene_check_places(scene, &session->sink);
+    scene_check_reach(scene, &session->sink);
+    assets_finish(&session->unshown);
+}
+
 // The steps that need the background's pixels.
 static void finish_load(void *context) {
     struct session *session = context;
@@ -313,6 +328,7 @@ static struct parser_input parser_input(struct session *session) {
                                  .sets = session->options.sets,
                                  .set_count = session->options.set_count,
                                  .keeps_written = session->options.keeps_written,
+                                 .judges_objects = session->options.judged,
                                  .timeline = session->options.timeline};
 }
 
@@ -328,6 +344,8 @@ static enum session_state take_scene(struct session *session, struct asset_store
     if (session->options.on_text && session->sink.errors == 0)
         session->options.on_text(session->options.on_text_context);
     load_assets(session, store);
+    if (output->unshown)
+        judge_unshown(session, store, output->unshown);
     session->unsettled = session->assets.pixels_later && session->sink.errors == 0;
     if (!session->unsettled)
         finish_load(session);
@@ -465,6 +483,7 @@ void session_finish(struct session *session) {
     if (!session)
         return;
     assets_finish(&session->assets);
+    assets_finish(&session->unshown);
     diag_sink_finish(&session->sink);
     arena_finish(&session->arena);
     session_kept_release(session->options.kept);

@@ -17,6 +17,7 @@
 //             scene has no animation; else all of its frames were looked at.
 // 8 compact   Anonymous elements that no reference uses are gone. The IR no longer changes.
 // 9 validate  The rules that a table cannot say hold; else it is reported.
+// Objects that nothing shows then go through stages 7 to 9 in a scene of their own.
 // Diagnostics about an included file then say where it is included. parser_load_file runs the first two.
 //
 // Ownership: IR and places live in `arena`; sources keep the text. The caller owns everything in
@@ -42,6 +43,7 @@ struct parser_input {
     const str *sets;     // --set options, "PATH=VALUE", in order
     uint32_t set_count;
     bool keeps_written;        // origin.written is the scene as it is written
+    bool judges_objects;       // also those that nothing shows: output->unshown
     bool whole;                // nothing is bound before its file is read: slower, with the same result
     struct timeline *timeline; // may be NULL
 };
@@ -50,6 +52,8 @@ struct parser_output {
     struct ir_scene *scene;  // merged, resolved; with every poisoned value at its default
     struct ir_origin origin; // origin.files[0].scene is only the main file
     span unread;             // the first include that could not be read; SPAN_NONE: all were
+    // A scene of the objects that nothing shows, an instance of each; NULL: there are none, or nobody asked.
+    struct parser_output *unshown;
 };
 
 // Loads the source `main_source` (already read) and all that it includes.

@@ -329,7 +329,7 @@ static bool explain_path(struct explainer *e, str what) {
             schema = above->child;
         row = schema ? find_row(schema, part) : -1;
         if (schema && row < 0)
-            row = schema_find_also(schema, part);
+            row = schema_find_also(schema, part, 0);
         if (row < 0 && !(may_be_name && what.len))
             return false;
         may_be_name = false;
@@ -380,18 +380,18 @@ static bool explain_other_word(struct explainer *e, str what, bool *known) {
     const struct schema_element *last = NULL;
     unsigned count = 0;
     for (const struct schema_element *const *s = schema_elements; *s; s++)
-        if (schema_find_also(*s, what) >= 0) {
+        if (schema_find_also(*s, what, 0) >= 0) {
             last = *s;
             count++;
         }
     if (count == 1)
-        explain_attribute(e, last, (uint32_t)schema_find_also(last, what));
+        explain_attribute(e, last, (uint32_t)schema_find_also(last, what, 0));
     *known = count > 1;
     if (!*known)
         return count == 1;
     strbuf_format(e->out, "several attributes are like '%.*s'; say which: ", STR_ARG(what));
     for (const struct schema_element *const *s = schema_elements; *s; s++) {
-        const int row = schema_find_also(*s, what);
+        const int row = schema_find_also(*s, what, 0);
         if (row >= 0) {
             strbuf_format(e->out, "'%s.%s'", (*s)->name, (*s)->rows[row].name);
             strbuf_cstr(e->out, --count > 1 ? ", " : count == 1 ? " or " : "\n");
@@ -405,7 +405,7 @@ static void put_other_meanings(struct explainer *e, str what) {
     struct strbuf text;
     strbuf_init(&text);
     for (const struct schema_element *const *s = schema_elements; *s; s++) {
-        const int row = schema_find_also(*s, what);
+        const int row = schema_find_also(*s, what, 0);
         if (row >= 0)
             strbuf_format(&text, "%s'%s.%s'",
                           text.len ? ", " : "Other programs use this word for what is here ", (*s)->name,

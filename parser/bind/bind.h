@@ -220,6 +220,8 @@ bool bind_loose_numbers(struct bind_context *context, struct bind_frame *frame, 
                         tree_index key);
 // Whether a list has numbers where it should have lists of numbers, as a matrix in one line (reported).
 bool bind_flat_numbers(struct bind_context *context, struct bind_subject subject, tree_index list);
+// The same for rows of a matrix of three numbers each.
+bool bind_short_rows(struct bind_context *context, struct bind_subject subject, tree_index list);
 
 // bind_entry.c
 // An entry at its defaults, in scratch.

@@ -183,7 +183,8 @@ static void bind_many(struct bind_context *context, struct bind_frame *frame, ui
         loose_entries(context, frame, row, given.value, true);
         return;
     }
-    if (bind_flat_numbers(context, bind_subject(frame, r), given.value)) {
+    if (bind_flat_numbers(context, bind_subject(frame, r), given.value) ||
+        bind_short_rows(context, bind_subject(frame, r), given.value)) {
         frame->seen |= bind_bit(row);
         bind_poison(frame, row);
         return;

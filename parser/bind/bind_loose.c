@@ -25,6 +25,22 @@ static void add_entry(struct bind_context *context, struct bind_entries *entries
         *ARENA_PUSH(context->scratch, entries) = (struct bind_found){name, given};
 }
 
+// What an entry must name and does not, so that the key before it is that name: 'object' of an instance.
+static const struct schema_row *named_by_key(struct bind_context *context,
+                                             const struct schema_element *schema, tree_index entry) {
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
+        if (row->kind != SCHEMA_REFERENCE || !row->required)
+            continue;
+        bool single;
+        for (tree_index key = tree_first(context->tree, entry); key; key = tree_next_key(context->tree, key))
+            if (bind_find_row(context, schema, key, &single) == (int)i)
+                return NULL;
+        return row;
+    }
+    return NULL;
+}
+
 // A map where a list belongs: one entry, or entries by name.
 static void map_for_list(struct bind_context *context, struct bind_entries *entries,
                          const struct schema_row *row, tree_index map, bool reported) {
@@ -53,12 +69,22 @@ static void map_for_list(struct bind_context *context, struct bind_entries *entr
     }
     if (bind_kind(context, tree_value(tree, first)) != TREE_MAP)
         return;
-    if (reported)
+    const struct schema_row *named = named_by_key(context, row->child, tree_value(tree, first));
+    const str own = say_text(context->scratch, name);
+    if (reported && named)
+        diag_help(sink, "begin each entry with '- ' and write its name inside: - {%s: %.*s, ...}",
+                  named->name, STR_ARG(own));
+    else if (reported)
         diag_help(sink, "begin each entry with '- ' and write its name inside: - {name: %.*s, ...}",
-                  STR_ARG(say_text(context->scratch, tree_text(tree, first))));
-    for (tree_index key = first; key; key = tree_next_key(tree, key))
-        if (bind_kind(context, tree_value(tree, key)) == TREE_MAP && !bind_is_bad_pair(context, map, key))
-            add_entry(context, entries, STR(""), bind_given_by(context, key));
+                  STR_ARG(own));
+    for (tree_index key = first; key; key = tree_next_key(tree, key)) {
+        const tree_index value = tree_value(tree, key);
+        if (bind_kind(context, value) != TREE_MAP || bind_is_bad_pair(context, map, key))
+            continue;
+        if (named_by_key(context, row->child, value))
+            tree_node(tree, value)->flags |= TREE_CUT; // what it lacks is its key
+        add_entry(context, entries, STR(""), bind_given_by(context, key));
+    }
 }
 
 // The name that an item of a list gives itself, for a map that has names as keys; its pair is then skipped.
@@ -87,6 +113,15 @@ static void list_for_map(struct bind_context *context, struct bind_entries *entr
             continue;
         struct bind_given given = {.value = item};
         str name = take_name(context, row, item, &given);
+        const tree_index only = tree_first(context->tree, item);
+        if (only && !name.len && !is_entry(context, row, item) && !bind_is_bad_pair(context, item, only)) {
+            if (reported) // - size: 2
+                diag_help(context->sink, "write each name without '- ' before it: %.*s: ...",
+                          STR_ARG(say_text(context->scratch, tree_text(context->tree, only))));
+            reported = false;
+            add_entry(context, entries, tree_text(context->tree, only), bind_given_by(context, only));
+            continue;
+        }
         if (reported && name.len)
             diag_help(context->sink, "write each entry after its name, without '- ' and 'name': %.*s: {...}",
                       STR_ARG(say_text(context->scratch, name)));
@@ -99,7 +134,10 @@ static void list_for_map(struct bind_context *context, struct bind_entries *entr
 static void value_for_list(struct bind_context *context, struct bind_entries *entries,
                            const struct schema_row *row, tree_index value, bool reported) {
     str written = source_text(context->sources, tree_span(context->tree, value));
-    if (schema_short_row(row->child) < 0 || row->many != SCHEMA_SEQUENCE)
+    const int only = schema_short_row(row->child);
+    const enum schema_kind kind = only < 0 ? SCHEMA_ELEMENT : row->child->rows[only].kind;
+    const bool needs_list = schema_components(kind)[0] && kind != SCHEMA_VECTOR && kind != SCHEMA_COLOR;
+    if (only < 0 || row->many != SCHEMA_SEQUENCE || needs_list)
         return;
     if (reported) {
         str mended = arena_format(context->scratch, "[%.*s]", STR_ARG(written));
@@ -235,6 +273,49 @@ static uint32_t numbers_of_entry(const struct schema_row *row) {
     return only < 0 ? 0 : schema_component_count(row->child->rows[only].kind);
 }
 
+// Of a matrix in one line 3: 9 numbers, without the last column, or 16, whose last row is 0, 0, 0, 1. Else 0.
+static uint32_t rows_of_matrix(const struct tree *tree, tree_index list) {
+    const uint32_t count = tree_node(tree, list)->count;
+    uint32_t i = 0;
+    for (tree_index item = tree_first(tree, list); item && count == 16; item = tree_next(tree, item), i++) {
+        double value;
+        if (i >= 12 && (number_parse(tree_text(tree, item), &value) != NUMBER_OK || value != (i == 15)))
+            return 0;
+    }
+    return count == 16 || count == 9 ? 3 : 0;
+}
+
+// [[1, 0, 0], [0, 1, 0], [0, 0, 1]]: all rows of a matrix lack the last number, which is reported once.
+bool bind_short_rows(struct bind_context *context, struct bind_subject subject, tree_index list) {
+    const struct tree *tree = context->tree;
+    str mended = STR("");
+    if (numbers_of_entry(subject.row) != 4 || tree_node(tree, list)->count < 2)
+        return false;
+    for (tree_index row = tree_first(tree, list); row; row = tree_next(tree, row)) {
+        if (bind_kind(context, row) != TREE_LIST || bind_is_bad(context, row) ||
+            tree_node(tree, row)->count != 3)
+            return false;
+        for (tree_index item = tree_first(tree, row); item; item = tree_next(tree, item)) {
+            if (bind_kind(context, item) != TREE_SCALAR)
+                return false;
+            mended = arena_format(context->scratch, "%.*s%s%.*s", STR_ARG(mended),
+                                  item != tree_first(tree, row)   ? ", "
+                                  : row != tree_first(tree, list) ? ", ["
+                                                                  : "[",
+                                  STR_ARG(tree_text(tree, item)));
+        }
+        mended = arena_format(context->scratch, "%.*s, 0]", STR_ARG(mended));
+    }
+    diag_add(context->sink, DIAG_WRONG_COUNT, tree_span(tree, list),
+             "the rows of %.*s have 3 numbers; each needs 4",
+             STR_ARG(say_subject(context->scratch, subject)));
+    mended = arena_format(context->scratch, "[%.*s]", STR_ARG(mended));
+    diag_help(context->sink, "the fourth says where the object is: write %.*s",
+              STR_ARG(say_text(context->scratch, mended)));
+    diag_fix(context->sink, false, tree_span(tree, list), mended);
+    return true;
+}
+
 bool bind_flat_numbers(struct bind_context *context, struct bind_subject subject, tree_index list) {
     const struct tree *tree = context->tree;
     const uint32_t width = numbers_of_entry(subject.row), count = tree_node(tree, list)->count;
@@ -243,7 +324,9 @@ bool bind_flat_numbers(struct bind_context *context, struct bind_subject subject
     if (width < 2 || count < 2)
         return false;
     const enum schema_kind kind = subject.row->child->rows[schema_short_row(subject.row->child)].kind;
-    const bool has_fix = count % width == 0 && count <= FLAT_NUMBERS_MOST;
+    const uint32_t rows = kind == SCHEMA_QUAD ? rows_of_matrix(tree, list) : 0;
+    const uint32_t taken = rows == 3 && count == 9 ? 3 : width; // without the last column
+    const bool has_fix = count % taken == 0 && count <= FLAT_NUMBERS_MOST;
     for (tree_index item = tree_first(tree, list); item; item = tree_next(tree, item), i++) {
         const str text = tree_text(tree, item);
         double value;
@@ -252,12 +335,15 @@ bool bind_flat_numbers(struct bind_context *context, struct bind_subject subject
         if (bind_kind(context, item) != TREE_SCALAR || bind_is_bad(context, item) ||
             (kind == SCHEMA_VECTOR && !is_number))
             return false;
-        if (has_fix)
+        if (has_fix && !(rows && i >= rows * taken))
             mended = arena_format(context->scratch, "%.*s%s%.*s%s", STR_ARG(mended),
-                                  i % width ? ", "
+                                  i % taken ? ", "
                                   : i       ? ", ["
                                             : "[",
-                                  STR_ARG(text), i % width + 1 == width ? "]" : "");
+                                  STR_ARG(text),
+                                  i % taken + 1 < taken ? ""
+                                  : taken < width       ? ", 0]"
+                                                        : "]");
     }
     diag_add(context->sink, DIAG_WRONG_SHAPE, tree_span(tree, list),
              "%.*s must be a list of lists of %u numbers, not one list of %u numbers",

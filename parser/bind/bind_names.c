@@ -3,6 +3,8 @@
 #include "core/strbuf.h"
 #include "diag/codes/binding.h"
 #include "grammar/concept.h"
+#include "grammar/ir_value.h"
+#include "grammar/ir_walk.h"
 #include "parser/bind/bind.h"
 #include "parser/bind/say.h"
 #include "parser/tree/mend.h"
@@ -226,7 +228,7 @@ static bool other_word_elsewhere(struct bind_context *context, str snake) {
     const struct schema_row *only = NULL;
     unsigned count = 0;
     for (const struct schema_element *const *e = schema_elements; *e; e++) {
-        int row = schema_find_also(*e, snake);
+        int row = schema_find_also(*e, snake, 0);
         if (row < 0)
             continue;
         count++;
@@ -240,6 +242,70 @@ static bool other_word_elsewhere(struct bind_context *context, str snake) {
     else if (count == 2)
         diag_help(context->sink, "did you mean %.*s?", STR_ARG(list));
     return count == 1 || count == 2;
+}
+
+// The entry of a list with this name, of those that are bound already; NULL: none.
+static const void *find_entry(const struct schema_row *list, const void *memory, str name) {
+    const struct ir_any_list all = ir_walk_list(list, memory);
+    for (uint32_t i = 0; i < all.count; i++)
+        if (str_equal(ir_walk_key(list->child, ir_walk_item(list, all, i)), name))
+            return ir_walk_item(list, all, i);
+    return NULL;
+}
+
+// The row by whose entries values are given to what an element shows: a map of names to values.
+static const struct schema_row *giving_row(const struct schema_element *schema) {
+    for (uint32_t i = 0; i < schema->row_count; i++) {
+        const struct schema_row *row = &schema->rows[i];
+        const int value = row->many == SCHEMA_NAMED_MAP ? schema_short_row(row->child) : -1;
+        if (value >= 0 && row->child->rows[value].required)
+            return row;
+    }
+    return NULL;
+}
+
+// What the element shows is named by this row; empty: not known.
+static str name_of_shown(struct bind_context *context, const struct bind_frame *frame, uint32_t row,
+                         tree_index key) {
+    str name = ((const struct ir_reference *)schema_field(&frame->schema->rows[row], frame->memory))->name;
+    bool single;
+    for (; key && !name.len; key = tree_next_key(context->tree, key))
+        if (bind_find_row(context, frame->schema, key, &single) == (int)row)
+            name = tree_text(context->tree, tree_value(context->tree, key));
+    return name;
+}
+
+// A name of what an element shows, to which it gives values by a row of its own: {object: chair, size: 2}.
+static bool is_given(struct bind_context *context, const struct bind_frame *frame, tree_index key) {
+    const struct schema_element *schema = frame->schema;
+    const struct schema_row *giving = giving_row(schema);
+    const str name = tree_text(context->tree, key);
+    for (uint32_t i = 0; giving && i < schema->row_count; i++) {
+        const struct schema_element *of = schema->rows[i].child;
+        if (schema->rows[i].kind != SCHEMA_REFERENCE || !schema->rows[i].required)
+            continue;
+        const str owner = name_of_shown(context, frame, i, key);
+        const void *shown = find_entry(&SCHEMA_SCENE.rows[bind_home_row(of)], context->scene, owner);
+        for (uint32_t k = 0; shown && owner.len && k < of->row_count; k++) {
+            const struct schema_row *list = &of->rows[k];
+            if (list->many != SCHEMA_NAMED_MAP || !find_entry(list, shown, name))
+                continue;
+            const str value = tree_text(context->tree, tree_value(context->tree, key));
+            const str example =
+                context->tree->is_xml
+                    ? arena_format(context->scratch, "<%s %s=\"%.*s\" %s=\"%.*s\"/>", giving->element,
+                                   giving->child->rows[schema_key_row(giving->child)].name, STR_ARG(name),
+                                   giving->child->rows[schema_short_row(giving->child)].name, STR_ARG(value))
+                    : arena_format(
+                          context->scratch, "%s: {%.*s: %.*s}", giving->name, STR_ARG(name),
+                          STR_ARG(source_text(context->sources,
+                                              tree_span(context->tree, tree_value(context->tree, key)))));
+            diag_help(context->sink, "it is a %s of the %s '%.*s': write %.*s", list->child->name, of->name,
+                      STR_ARG(owner), STR_ARG(say_text(context->scratch, example)));
+            return true;
+        }
+    }
+    return false;
 }
 
 // A feature of other tools that glint lacks, unless a name of this element is surely meant.
@@ -258,7 +324,7 @@ static bool is_glued(struct bind_context *context, struct bind_frame *frame, tre
         return false;
     str name = str_slice(text, 0, (size_t)(colon - text.ptr));
     struct mend_search search = search_rows(context, frame, name);
-    int id = search.best ? search.best_id : schema_find_also(frame->schema, search.snake);
+    int id = search.best ? search.best_id : schema_find_also(frame->schema, search.snake, 0);
     if (id < 0)
         return false;
     frame->guessed |= bind_bit((uint32_t)id);
@@ -372,6 +438,46 @@ static bool is_component(struct bind_context *context, struct bind_frame *frame,
     return false;
 }
 
+// "0, 0, 1" of x="0" y="0" z="1"
+static str attributes_in_order(struct bind_context *context, tree_index element) {
+    str list = STR("");
+    for (tree_index key = tree_first(context->tree, element); key; key = tree_next_key(context->tree, key))
+        if (bind_kind(context, tree_value(context->tree, key)) == TREE_SCALAR)
+            list = arena_format(context->scratch, "%.*s%s%.*s", STR_ARG(list), list.len ? ", " : "",
+                                STR_ARG(say_text(context->scratch,
+                                                 tree_text(context->tree, tree_value(context->tree, key)))));
+    return list;
+}
+
+// <Value x="0" y="0" z="1"/> for what XML writes as text: value="0, 0, 1", values="[0, 0, 1], [2, 0, 1]".
+// Reported once.
+static bool is_values(struct bind_context *context, struct bind_frame *frame, tree_index key, str snake) {
+    const struct schema_row *row = frame->schema->rows;
+    const struct schema_row *end = row + frame->schema->row_count;
+    while (row < end && !(schema_has_values(row) && snake.len + 1 >= strlen(row->name) &&
+                          str_starts_with(str_from(row->name), snake)))
+        row++;
+    if (row == end || bind_kind(context, tree_value(context->tree, key)) != TREE_MAP)
+        return false;
+    const uint64_t bit = bind_bit((uint32_t)(row - frame->schema->rows));
+    if (frame->guessed & bit)
+        return true;
+    str text = STR("");
+    for (tree_index k = key; k; k = tree_next_key(context->tree, k)) {
+        const str one = attributes_in_order(context, tree_value(context->tree, k));
+        if (one.len && str_equal(tree_text(context->tree, k), tree_text(context->tree, key)))
+            text =
+                arena_format(context->scratch, row->text == SCHEMA_TEXT_LIST ? "%.*s%s[%.*s]" : "%.*s%s%.*s",
+                             STR_ARG(text), text.len ? ", " : "", STR_ARG(one));
+    }
+    if (!text.len)
+        return false;
+    frame->guessed |= bit;
+    add_unknown(context, frame, key);
+    diag_help(context->sink, "write %s=\"%.*s\"", row->name, STR_ARG(text));
+    return true;
+}
+
 // <Material ref="red"/> instead of the name of a material.
 static bool is_reference(struct bind_context *context, struct bind_frame *frame, tree_index key) {
     static const char *const words[] = {"ref", "id", "idref", "href", "use", "link"};
@@ -423,7 +529,8 @@ static bool is_rest(struct bind_context *context, tree_index key) {
 }
 
 enum {
-    SHORT_NAME = 3
+    SHORT_NAME = 3,
+    LONG_NAME = 30
 };
 
 struct bind_meant bind_unknown_name(struct bind_context *context, struct bind_frame *frame, tree_index key) {
@@ -437,7 +544,7 @@ struct bind_meant bind_unknown_name(struct bind_context *context, struct bind_fr
     struct mend_search search = search_rows(context, frame, text);
     if (is_mixed(context, frame, key) || is_glued(context, frame, key) ||
         is_wrapper(context, frame, key, search.snake, &meant) || is_reference(context, frame, key) ||
-        is_rest(context, key))
+        is_values(context, frame, key, search.snake) || is_rest(context, key))
         return meant;
     const struct schema_row *near = search.best ? &frame->schema->rows[search.best_id] : NULL;
     bool exact = near && search.distance == 0;
@@ -446,12 +553,15 @@ struct bind_meant bind_unknown_name(struct bind_context *context, struct bind_fr
         wrong_form(context, frame, key, search.best_id);
         return meant;
     }
-    int also = exact ? -1 : schema_find_also(frame->schema, search.snake);
+    int also = exact ? -1 : schema_find_also(frame->schema, search.snake, 0);
     const struct concept *concept = exact || also >= 0 ? NULL : concept_meant(frame, &search);
     if (!exact && also < 0 && !concept && is_component(context, frame, key))
         return meant;
     str other = exact || also >= 0 || concept ? STR("") : elsewhere(context, frame, search.snake, false);
-    if (!near && also < 0 && !concept && other.len == 0 && search.snake.len > 3)
+    if (also < 0 && !concept && other.len == 0 && !(near && search.distance <= 1) &&
+        search.snake.len > SHORT_NAME && search.snake.len <= LONG_NAME)
+        also = schema_find_also(frame->schema, search.snake, 1);
+    if (!near && also < 0 && !concept && other.len == 0 && search.snake.len > SHORT_NAME)
         other = elsewhere(context, frame, search.snake, true);
     // Of three letters, one is a third: 'ior' is meant as such before it is taken for 'for'.
     const bool is_doubtful = near && !exact && search.snake.len <= SHORT_NAME;
@@ -460,6 +570,8 @@ struct bind_meant bind_unknown_name(struct bind_context *context, struct bind_fr
     if (is_key && kind == TREE_KEY_PLAIN)
         diag_help(context->sink, frame->via->kind == SCHEMA_REFERENCE ? "written in place it needs no name"
                                                                       : "the key above it is its name");
+    else if (is_given(context, frame, key))
+        return meant;
     else if (also >= 0)
         other_word(context, frame, key, also);
     else if (concept)

@@ -72,7 +72,8 @@ static str path_of_frame(struct arena *arena, const struct bind_frame *frame) {
 // "'radius'": the path from the nearest entry of a list, without its owner; may be empty.
 static str say_path(struct arena *arena, struct bind_subject subject) {
     str path = path_of_frame(arena, subject.frame);
-    if (subject.row && !(subject.frame->bare && subject.row->short_form && path.len)) {
+    const bool is_item = subject.frame->via && subject.frame->via->many == SCHEMA_SEQUENCE;
+    if (subject.row && !(subject.frame->bare && subject.row->short_form && (path.len || is_item))) {
         const char *name = subject.row->many == SCHEMA_ONE ? subject.row->name : schema_yaml_key(subject.row);
         path = arena_format(arena, "%.*s%s%s", STR_ARG(path), path.len ? "." : "", name);
     }
@@ -109,11 +110,11 @@ str say_words(struct arena *arena, const char *const *words) {
 }
 
 static str expected_element(struct arena *arena, const struct schema_row *row) {
-    str word = spoken(arena, row->child->name);
+    str word = row->plural ? arena_format(arena, " of %.*s", STR_ARG(spoken(arena, row->plural))) : STR("");
     if (row->many == SCHEMA_NAMED_MAP)
-        return arena_format(arena, "a map of %.*s entries by name", STR_ARG(word));
+        return arena_format(arena, "a map%.*s by name", STR_ARG(word));
     if (row->many != SCHEMA_ONE)
-        return arena_format(arena, "a list of %.*s entries", STR_ARG(word));
+        return arena_format(arena, "a list%.*s", STR_ARG(word));
     int bare = schema_short_row(row->child);
     if (bare < 0)
         return STR("a group of attributes");

@@ -59,8 +59,23 @@ static str yaml_list(struct arena *arena, const char *text) {
     return arena_format(arena, "%.*s]", STR_ARG(list));
 }
 
+// "1 0 0 2, 0 1 0 0" as [[1, 0, 0, 2], [0, 1, 0, 0]]
+static str yaml_lists(struct arena *arena, str rest) {
+    str lists = STR("");
+    while (rest.len) {
+        const char *comma = memchr(rest.ptr, ',', rest.len);
+        const size_t end = comma ? (size_t)(comma - rest.ptr) : rest.len;
+        const str list = yaml_list(arena, arena_format(arena, "%.*s", (int)end, rest.ptr).ptr);
+        lists = arena_format(arena, "%.*s%s%.*s", STR_ARG(lists), lists.len ? ", " : "", STR_ARG(list));
+        rest = str_trim(str_slice(rest, end + (comma != NULL), rest.len));
+    }
+    return arena_format(arena, "[%.*s]", STR_ARG(lists));
+}
+
 static str yaml_value(struct arena *arena, const struct schema_row *row) {
     const char *text = sample(row);
+    if (row->kind == SCHEMA_LIST)
+        return yaml_lists(arena, str_from(text));
     bool is_text = text[0] == '#' || (row->kind == SCHEMA_TEXT && row->text == SCHEMA_TEXT_FREE);
     if (is_text)
         return arena_format(arena, "\"%s\"", text);

@@ -339,7 +339,8 @@ void animate_scene(struct loader *loader, struct ir_scene *scene) {
         copies_check_focus(e);
         copies_finish(e);
         evaluation_keep(e);
-        evaluation_tell_unused(e);
+        if (!loader->is_beside)
+            evaluation_tell_unused(e);
     }
     arena_finish(&loader->scratch);
 }

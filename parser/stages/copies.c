@@ -113,8 +113,7 @@ static bool is_kept(struct evaluation *e, const struct copy_entry *entry, bool *
         return true;
     }
     if (!expression_at(&entry->if_expression, &e->at, value, &fault)) {
-        evaluation_fault(e, DIAG_EXPRESSION, entry->condition->text, entry->condition->at,
-                         evaluation_suffix(e), &fault);
+        evaluation_fault(e, DIAG_EXPRESSION, entry->condition->text, entry->condition->at, true, &fault);
         return false;
     }
     *kept = value[0] != 0;
@@ -230,6 +229,7 @@ static void replace(void *context, struct visit_place place, struct ir_reference
 }
 
 void copies_read_types(struct evaluation *e, struct copy_entry *entry) {
+    copies_leave_all(e);
     if (entry->is_good) {
         copies_enter_types(e, entry);
         find_used(e, entry);

@@ -117,11 +117,14 @@ static bool enter(struct evaluation *e, uint32_t instance) {
     if (!copies_enter_again(e, entry, copy->places, copy->instance) || !compute_given(e, entry, values))
         return false;
     objects_reach(e, object);
+    for (uint32_t i = 0; i < object->ordered; i++) // messages give the values that are known
+        e->variables[object->outer + object->order[i]].is_bad = true;
     for (uint32_t i = 0; i < object->ordered; i++) {
         const uint32_t number = object->order[i];
         if (!give(e, object, number,
                   entry->given[number].ir ? values + (size_t)EXPRESSION_WIDTH * number : NULL))
             return false;
+        e->variables[object->outer + number].is_bad = false;
     }
     e->base_of = instance;
     return true;

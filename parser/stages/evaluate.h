@@ -138,6 +138,8 @@ void evaluation_fault(struct evaluation *evaluation, diag_code code, str text, s
 bool evaluation_name_fits(const struct evaluation *evaluation, str name, span at, const char *what);
 // What messages end in: ", with i = 3, in frame 3".
 const char *evaluation_suffix(const struct evaluation *evaluation);
+// What was reported last is about a copy, with these values.
+void evaluation_add_values(const struct evaluation *evaluation);
 // A parameter that a text names is used.
 void evaluation_mark_named(struct evaluation *evaluation, str text);
 // What is said of a name that is not in reach, and is a variable of some entry; NULL: it is of none.

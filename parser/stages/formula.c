@@ -77,7 +77,8 @@ static bool wrong_type(struct evaluation *e, const struct bind_frame *frame, con
     return false;
 }
 
-static void note_text(struct evaluation *e, const struct ir_formula *f) {
+static void add_text(struct evaluation *e, const struct ir_formula *f) {
+    evaluation_add_values(e);
     if (f->text.len <= 60)
         diag_note(sink(e), SPAN_NONE, "%s = %.*s", f->row->name, STR_ARG(f->text));
 }
@@ -91,7 +92,7 @@ static bool out_of_range(struct evaluation *e, struct bind_subject subject, cons
     diag_add(sink(e), DIAG_OUT_OF_RANGE, f->at, "%.*s is %s%s; it must be %s%s",
              STR_ARG(say_subject(&e->loader->scratch, subject)), digits, evaluation_suffix(e),
              schema_range_info(f->row->range)->text, say_unit(f->row));
-    note_text(e, f);
+    add_text(e, f);
     return false;
 }
 
@@ -106,8 +107,8 @@ bool evaluate_fits(struct evaluation *e, struct bind_subject subject, const stru
         return false;
     number_format(value, digits);
     diag_add(sink(e), DIAG_OUT_OF_RANGE, f->at, "%.*s is %s%s; it must be a whole number",
-             STR_ARG(say_subject(&e->loader->scratch, subject)), digits, e->suffix);
-    note_text(e, f);
+             STR_ARG(say_subject(&e->loader->scratch, subject)), digits, evaluation_suffix(e));
+    add_text(e, f);
     diag_help(sink(e), "write floor(%.*s)", STR_ARG(say_text(&e->loader->scratch, f->text)));
     return false;
 }

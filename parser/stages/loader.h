@@ -38,6 +38,7 @@ struct loader {
         uint32_t count;
         span first;
     } refused;       // includes beyond the limit of files
+    bool is_beside;  // the scene is that of objects that nothing shows (unshown.c)
     bool incomplete; // a file was not read to its end, or includes are unknown: names may be in the rest
 };
 
@@ -73,6 +74,12 @@ void override_apply(struct loader *loader, struct ir_scene *scene);
 // Formulas get their values. If the animation names a frame, the scene gets its values in that frame and then
 // has no animation. Else all frames are checked.
 void animate_scene(struct loader *loader, struct ir_scene *scene);
+
+// unshown.c
+// The scene of objects, if there are any: from here on the loaded one changes. NULL: there are none to judge.
+struct ir_scene *unshown_begin(const struct loader *loader, const struct ir_scene *scene);
+// Judges the objects that nothing in the loaded scene shows; output->unshown.
+void unshown_judge(struct loader *loader, struct ir_scene *scene);
 
 // names.c
 // Names are unique; references get their index.

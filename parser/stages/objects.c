@@ -188,6 +188,22 @@ static bool is_library(const struct ir_scene *scene) {
            scene->cameras.count == 0;
 }
 
+static bool is_empty(const struct ir_object *object) {
+    for (uint32_t i = 0; i < SCHEMA_OBJECT.row_count; i++)
+        if (copies_may(&SCHEMA_OBJECT.rows[i]) && ir_walk_list(&SCHEMA_OBJECT.rows[i], object).count)
+            return false;
+    return true;
+}
+
+static void tell_empty(const struct evaluation *e, const struct ir_object *object) {
+    const str name = object->name.len
+                         ? arena_format(&e->loader->scratch, "the object '%.*s'", STR_ARG(object->name))
+                         : STR("this object");
+    diag_add(sink(e), DIAG_OBJECT_EMPTY, ir_place_label(origin(e), &object->head),
+             "%.*s has nothing in it that could be shown", STR_ARG(name));
+    diag_help(sink(e), "write bodies, lights or instances in it, or remove it");
+}
+
 void objects_tell_unused(const struct evaluation *e) {
     const bool tells_objects = !is_library(e->scene);
     for (uint32_t i = 0; e->objects && i < e->objects->count; i++) {
@@ -196,7 +212,9 @@ void objects_tell_unused(const struct evaluation *e) {
         // Only those of the main file are meant to be shown.
         const span at = ir_place_label(origin(e), head);
         const bool is_main = at.source == e->loader->files.items[0].source;
-        if (object->ir->name.len && object->uses == 0 && tells_objects && is_main && !head->poisoned) {
+        if (!head->poisoned && is_empty(object->ir))
+            tell_empty(e, object->ir);
+        else if (object->ir->name.len && object->uses == 0 && tells_objects && is_main && !head->poisoned) {
             diag_add(sink(e), DIAG_OBJECT_UNUSED, at,
                      "no instance shows the object '%.*s', which shows nothing by itself",
                      STR_ARG(object->ir->name));

@@ -114,7 +114,6 @@ static void make_object(struct evaluation *e, uint32_t instance, uint32_t depth)
 static void end_object(struct evaluation *e, struct object *object) {
     if (object->state != OBJECT_READ) { // in a ring, or wrong: what is in place in it has no values
         struct copy_entry whole = {.row = ir_walk_pool(&SCHEMA_OBJECT), .memory = (void *)object->ir};
-        copies_leave_all(e);
         copies_read_types(e, &whole);
         return;
     }

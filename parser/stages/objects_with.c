@@ -90,7 +90,13 @@ static void report_ring(struct evaluation *e, struct object *object, uint32_t fi
         is_next(object, next, &next);
     diag_add(sink(e), DIAG_PARAMETER_RING, place_of(e, object->parameters[next].ir, "value"),
              "parameter '%.*s' depends on itself", STR_ARG(object->parameters[next].ir->name));
-    diag_help(sink(e), "give it a value of its own");
+    if (str_map_find(&e->by_name, object->parameters[next].ir->name))
+        diag_help(
+            sink(e),
+            "in the object '%.*s' is this parameter, which hides the scene's: choose another name for it",
+            STR_ARG(object->parameters[next].ir->name));
+    else
+        diag_help(sink(e), "give it a value of its own");
     for (uint32_t i = 0; i < object->ir->parameters.count; i++) {
         struct parameter *p = &object->parameters[i];
         if (p->state != PARAMETER_NEW)

@@ -33,7 +33,7 @@ static str quoted_text(const struct override *o, str text) {
 // Whether the step is a word of other programs: then the help says what glint calls it or has instead.
 static bool is_other_word(struct override *o, const struct schema_element *element,
                           const struct override_step *step, str snake) {
-    int also = schema_find_also(element, snake);
+    int also = schema_find_also(element, snake, 0);
     const struct concept *concept = also < 0 ? concept_find(element, snake) : NULL;
     if (also >= 0 && !element->rows[also].key) {
         const char *right = schema_yaml_key(&element->rows[also]);

@@ -45,6 +45,7 @@ bool parameter_is_in_bounds(struct evaluation *e, const struct parameter *p, dou
     number_format(low ? p->ir->min : p->ir->max, bound);
     diag_add(sink(e), DIAG_PARAMETER_VALUE, at, "parameter '%.*s' is %s%s; it must be at %s %s",
              STR_ARG(p->ir->name), digits, evaluation_suffix(e), low ? "least" : "most", bound);
+    evaluation_add_values(e);
     diag_note(sink(e), place_of(e, p, low ? "min" : "max"), "the bound is here");
     return false;
 }

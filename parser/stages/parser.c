@@ -25,9 +25,12 @@ static void run_scene(struct loader *loader) {
     override_apply(loader, output->scene);
     take_presets(output->scene);
     names_resolve(loader, output->scene);
+    struct ir_scene *objects = unshown_begin(loader, output->scene);
     animate_scene(loader, output->scene);
     merge_compact(loader, output->scene);
     validate_scene(loader, output->scene);
+    if (objects)
+        unshown_judge(loader, objects);
     resolve_note_includes(loader);
     timeline_add(loader->input->timeline, "validate", STR(""), start);
 }

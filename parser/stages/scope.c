@@ -71,11 +71,31 @@ bool evaluation_is_known(const struct evaluation *e, str name) {
 
 // ---- messages
 
+static void print_value(const struct evaluation *e, uint32_t variable, struct strbuf *out) {
+    expression_print(e->variables[variable].type,
+                     e->values + (size_t)EXPRESSION_WIDTH * (e->count + variable), out);
+}
+
 // Appends ", with i = 3, j = 4".
 static void print_variables(const struct evaluation *e, struct strbuf *out) {
+    bool any = false;
     for (uint32_t i = 0; i < e->variable_count; i++) {
-        strbuf_format(out, "%s%.*s = ", i ? ", " : ", with ", STR_ARG(e->names[e->count + i]));
-        expression_print(e->variables[i].type, e->values + (size_t)EXPRESSION_WIDTH * (e->count + i), out);
+        if (e->variables[i].is_bad)
+            continue;
+        strbuf_format(out, "%s%.*s = ", any ? ", " : ", with ", STR_ARG(e->names[e->count + i]));
+        print_value(e, i, out);
+        any = true;
+    }
+}
+
+void evaluation_add_values(const struct evaluation *e) {
+    for (uint32_t i = 0; i < e->variable_count; i++) {
+        struct strbuf text;
+        strbuf_init(&text);
+        print_value(e, i, &text);
+        if (!e->variables[i].is_bad)
+            diag_with(sink(e), e->names[e->count + i], strbuf_view(&text));
+        strbuf_finish(&text);
     }
 }
 
@@ -104,6 +124,8 @@ void evaluation_fault(struct evaluation *e, diag_code code, str text, span at, b
     if (fault->problem == EXPRESSION_UNKNOWN_NUMBER && !fault->help)
         told.help = evaluation_help(e, str_slice(text, fault->begin, fault->end));
     diag_expression_fault(sink(e), e->loader->input->sources, code, &expression, &told);
+    if (with_values)
+        evaluation_add_values(e);
 }
 
 bool evaluation_compile(struct evaluation *e, diag_code code, str text, span at,

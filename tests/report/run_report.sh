@@ -65,6 +65,23 @@ ok "a related place" get bad.json scenes/0/findings/2/related/0/line 8
 ok "the state" get bad.json scenes/0/state failed
 ok "statistics" get bad.json scenes/0/statistics/rectangles 2
 ok "counts" get bad.json counts '{"errors":3,"notes":0,"warnings":0}'
+# A finding about copies says which they are.
+cat >copies.yaml <<'S'
+glint: 1
+parameters: {paint: "#c08050"}
+objects: {row: {parameters: {ink: paint, at: [0, 1, 0]}, spheres: [{for: {i: 12, lit: [true]}, center: at, radius: 0.5 - 0.05*i, material: {diffuse_color: ink}}]}}
+instances: [{object: row}]
+spheres: [{for: {i: 3}, center: [i, 0, 0], radius: i + 1e-30, material: {albedo: [1, 1, 0.1, 0.8]}}, {center: [0, 0, 0], radius: -1}]
+S
+"$glint" check copies.yaml --format json >copies.json
+ok "a report with copies by its schema" "$tool" validate "$source/docs/schema/check-report.schema.json" copies.json
+ok "the values of a copy" get copies.json scenes/0/findings/0/with '{"at":[0,1,0],"i":10,"ink":"#c08050","lit":true}'
+ok "and of how many it holds" get copies.json scenes/0/findings/0/copies 2
+ok "also of one" get copies.json scenes/0/findings/1/copies 1
+ok "what is about no copy has none" lacks copies.json '"message": "[^"]*is -1;[^"]*"copies"'
+"$glint" check copies.yaml --format sarif >copies.sarif
+ok "SARIF with copies by its schema" "$tool" validate "$source/tests/report/sarif.schema.json" copies.sarif
+ok "the values in SARIF" get copies.sarif runs/0/results/1/properties '{"copies":1,"with":{"i":0}}'
 "$glint" check bad.glint.yaml --format json --max-messages 1 >short.json
 ok "a truncated report says so" get short.json truncated true
 ok "and counts on" get short.json scenes/0/left_out 2

@@ -292,18 +292,18 @@ static void test_words_of_other_programs(void **state) {
                 assert_snake(word);
                 assert_int_equal(schema_find_row(*e, str_from(word)), -1);
                 assert_int_equal(schema_find_yaml(*e, str_from(word), &single), -1);
-                assert_int_equal(schema_find_also(*e, str_from(word)), i);
+                assert_int_equal(schema_find_also(*e, str_from(word), 0), i);
             }
         }
-    assert_int_equal(schema_find_also(&SCHEMA_MATERIAL, STR("io")), -1);
-    assert_int_equal(schema_find_also(&SCHEMA_MATERIAL, STR("")), -1);
+    assert_int_equal(schema_find_also(&SCHEMA_MATERIAL, STR("io"), 0), -1);
+    assert_int_equal(schema_find_also(&SCHEMA_MATERIAL, STR(""), 0), -1);
 }
 
 // Whether an element has the word under this name, or under another.
 static bool is_taken(const struct schema_element *element, str word) {
     bool single;
     return schema_find_row(element, word) >= 0 || schema_find_yaml(element, word, &single) >= 0 ||
-           schema_find_also(element, word) >= 0;
+           schema_find_also(element, word, 0) >= 0;
 }
 
 static const struct schema_element *element_called(str name) {

@@ -294,7 +294,7 @@ static void rules_are_documented(void **state) {
         const struct diag_info *info = diag_info(rule->code);
         char heading[64];
         snprintf(heading, sizeof heading, "\n## %s: ", info->code);
-        assert_int_equal(info->severity, DIAG_WARNING);
+        assert_int_not_equal(info->severity, DIAG_ERROR);
         at = strstr(at, heading);
         if (!at)
             fail_msg("docs/lint.md has no heading for %s behind those before it", info->code);

@@ -226,9 +226,9 @@ static void mistakes_in_shape(void **state) {
     loaded_check_twins(HEAD_YAML "image: 5\n", "<Scene glint=\"1\" image=\"5\"/>", "E209",
                        "'image' must be a group of attributes, not '5'");
     loaded_check(HEAD_YAML "lights: {position: [0, 0, 0]}\n", "E209",
-                 "'lights' must be a list of light entries, not a group of attributes");
+                 "'lights' must be a list of lights, not a group of attributes");
     loaded_check(HEAD_YAML "materials: [glass]\n", "E209",
-                 "'materials' must be a map of material entries by name, not a list");
+                 "'materials' must be a map of materials by name, not a list");
     loaded_check(HEAD_YAML "lights: [5]\n", "E209", "this light must be a group of attributes, not '5'");
     loaded_check(HEAD_YAML "include: base.yaml\n", "E209 E601", "write [base.yaml]");
     loaded_check(HEAD_YAML "camera: {position: [[1], 2, 3]}\n", "E209",
