@@ -1,5 +1,6 @@
 // Cameras, lights, and the trees of nodes that place them and meshes.
 #include "assets/gltf/gltf_internal.h"
+#include "core/angle.h"
 #include "diag/codes/file.h"
 
 #include <math.h>
@@ -57,10 +58,15 @@ static void read_camera(struct gltf *gltf, json_index node) {
 static void read_light(struct gltf *gltf, json_index node) {
     struct gltf_light *light = ARENA_PUSH(gltf->arena, &gltf->lights);
     str type = STR("");
-    *light =
-        (struct gltf_light){.node = node, .name = gltf_name(gltf, node), .color = {1, 1, 1}, .intensity = 1};
+    *light = (struct gltf_light){
+        .node = node, .name = gltf_name(gltf, node), .color = {1, 1, 1}, .intensity = 1, .outer = PI / 4};
     gltf_get_numbers(gltf, node, "color", 0, 1e6, 3, light->color);
     gltf_get_number(gltf, node, "intensity", 0, 1e30, &light->intensity);
+    const json_index spot = json_get(&gltf->json, node, "spot");
+    if (spot) {
+        gltf_get_number(gltf, spot, "innerConeAngle", 0, PI / 2, &light->inner);
+        gltf_get_number(gltf, spot, "outerConeAngle", 0, PI / 2, &light->outer);
+    }
     light->has_range = json_get(&gltf->json, node, "range") != 0;
     const bool has_type = gltf_get_text(gltf, node, "type", &type);
     light->kind = str_equal_cstr(type, "point")         ? GLTF_LIGHT_POINT

@@ -267,6 +267,18 @@ static void put_camera(struct importing *im, const struct gltf_node *node) {
     write(&im->out->head, &SCHEMA_SCENE, "camera");
 }
 
+// Both fade by the square of a ramp between the cosines of two angles.
+static void put_spot(struct ir_light *out, const struct gltf_light *light, vec3 direction) {
+    out->spot.aim = IR_AIM_DIRECTION;
+    out->spot.direction = direction;
+    out->spot.angle = import_tidy(2 * light->outer / RADIANS);
+    out->spot.softness = light->outer > 0 ? import_tidy(fmax(1 - light->inner / light->outer, 0)) : 0;
+    write(&out->head, &SCHEMA_LIGHT, "spot");
+    write(&out->spot.head, &SCHEMA_SPOT, "direction");
+    write(&out->spot.head, &SCHEMA_SPOT, "angle");
+    write(&out->spot.head, &SCHEMA_SPOT, "softness");
+}
+
 static void put_light(struct importing *im, const struct site *site, const struct gltf_node *node) {
     const struct gltf_light *light = &im->gltf->lights.items[node->light];
     struct ir_lights *lights =
@@ -276,10 +288,11 @@ static void put_light(struct importing *im, const struct site *site, const struc
     out->name =
         import_name(&im->names.items[site->object], node->name.len ? node->name : light->name, "light");
     write(&out->head, &SCHEMA_LIGHT, "name");
+    const vec3 to = vec3_unit(vec3_neg(mat3_column(site->place.linear, 2)));
+    const vec3 direction = vec3_is_zero(to) ? (vec3){0, 0, -1} : import_tidy_vector(to);
     if (light->kind == GLTF_LIGHT_DIRECTIONAL) {
-        const vec3 to = vec3_unit(vec3_neg(mat3_column(site->place.linear, 2)));
         out->kind = IR_LIGHT_DIRECTION;
-        out->direction = vec3_is_zero(to) ? (vec3){0, 0, -1} : import_tidy_vector(to);
+        out->direction = direction;
         write(&out->head, &SCHEMA_LIGHT, "direction");
     } else {
         out->position = import_tidy_vector(site->place.offset);
@@ -287,6 +300,8 @@ static void put_light(struct importing *im, const struct site *site, const struc
         write(&out->head, &SCHEMA_LIGHT, "position");
         write(&out->head, &SCHEMA_LIGHT, "falloff");
     }
+    if (light->kind == GLTF_LIGHT_SPOT)
+        put_spot(out, light, direction);
     out->intensity = import_tidy(fmin(light->intensity / PI / im->dimming, 1e6));
     out->color = (struct ir_color){.r = light->color[0], .g = light->color[1], .b = light->color[2]};
     write(&out->head, &SCHEMA_LIGHT, "intensity");
@@ -472,8 +487,6 @@ static void put_nodes(struct importing *im) {
         struct site *site = &sites[index];
         *site = above ? (struct site){above->object, affine3_mul(above->place, node->local)}
                       : (struct site){0, node->local};
-        if (node->light != GLTF_NONE && gltf->lights.items[node->light].kind == GLTF_LIGHT_SPOT)
-            gltf_lose(im->gltf, GLTF_LOSS_SPOT, gltf->lights.items[node->light].node);
         if (above && above->object == AGAIN)
             continue;
         const bool is_root = repeated[index] != 0;

@@ -4,6 +4,8 @@
 #include "grammar/print/ir_print.h"
 #include "load/around/around.h"
 
+#include <string.h>
+
 const struct ir_scene *import_around(const struct import_source *source,
                                      const struct gltf_document *document) {
     if (!source->store || document->file.errors || !import_lacks(document))
@@ -24,20 +26,13 @@ struct making {
     struct strbuf *text;
 };
 
-// Drops the losses that reading the mesh reports anyway.
-static void keep_light_losses(struct gltf *gltf) {
-    for (int i = 0; i < GLTF_LOSSES; i++)
-        if (i != GLTF_LOSS_SPOT)
-            gltf->losses[i] = (struct gltf_loss_count){0};
-}
-
 static void make(void *context) {
     struct making *m = context;
     const struct import_options options = {.around = m->around, .mesh = path_base(m->document->file.path)};
     import_gltf(m->document, &options, &m->document->arena, &m->scene);
     ir_write_yaml(&m->scene, NULL, NULL, (struct ir_write_options){0}, m->text);
     m->document->file.input = m->input;
-    keep_light_losses(&m->document->gltf);
+    memset(m->document->gltf.losses, 0, sizeof m->document->gltf.losses); // reading the mesh reports them
     import_report(m->document);
 }
 

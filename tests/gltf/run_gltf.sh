@@ -54,7 +54,7 @@ rm -r within
 mv kept.yaml scene.yaml
 mv kept.png scene_image_0.png
 expect 'with --force it is' 0 - 'wrote scene.yaml' "$glint" import sample.glb -o scene.yaml --force
-expect 'to standard output' 0 '^glint: 1' 'spot light' "$glint" import sample.glb -o -
+expect 'to standard output' 0 'spot: {direction: .*, angle: 60, softness: 0.5}' - "$glint" import sample.glb -o -
 mkdir below
 expect 'another folder' 0 - 'W604' "$glint" import sample.glb -o below/scene.yaml -q
 expect 'an ending that is none' 2 - "must end in" "$glint" import sample.glb -o scene.txt

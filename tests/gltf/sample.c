@@ -262,15 +262,17 @@ static void put_nodes(struct strbuf *json) {
 }
 
 static void put_head(struct strbuf *json) {
-    strbuf_cstr(json, "{\"asset\": {\"version\": \"2.0\"},\n \"extensionsUsed\": [\"KHR_lights_punctual\", "
-                      "\"KHR_materials_transmission\", \"KHR_materials_ior\", \"KHR_materials_volume\", "
-                      "\"KHR_materials_unlit\", \"KHR_mesh_quantization\"],\n"
-                      " \"extensionsRequired\": [\"KHR_mesh_quantization\"],\n"
-                      " \"extensions\": {\"KHR_lights_punctual\": {\"lights\": [{\"type\": \"directional\", "
-                      "\"intensity\": 2}, "
-                      "{\"type\": \"point\", \"intensity\": 40, \"color\": [1, 0.9, 0.8]}, {\"type\": "
-                      "\"spot\", \"intensity\": 20, "
-                      "\"spot\": {}}]}},\n");
+    strbuf_cstr(
+        json,
+        "{\"asset\": {\"version\": \"2.0\"},\n \"extensionsUsed\": [\"KHR_lights_punctual\", "
+        "\"KHR_materials_transmission\", \"KHR_materials_ior\", \"KHR_materials_volume\", "
+        "\"KHR_materials_unlit\", \"KHR_mesh_quantization\"],\n"
+        " \"extensionsRequired\": [\"KHR_mesh_quantization\"],\n"
+        " \"extensions\": {\"KHR_lights_punctual\": {\"lights\": [{\"type\": \"directional\", "
+        "\"intensity\": 2}, "
+        "{\"type\": \"point\", \"intensity\": 40, \"color\": [1, 0.9, 0.8]}, {\"type\": "
+        "\"spot\", \"intensity\": 20, "
+        "\"spot\": {\"innerConeAngle\": 0.2617993877991494, \"outerConeAngle\": 0.5235987755982988}}]}},\n");
 }
 
 static void put_buffer(struct making *m, struct strbuf *json) {
