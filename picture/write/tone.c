@@ -1,9 +1,12 @@
+#include "core/heap.h"
 #include "core/parallel.h"
+#include "core/quantile.h"
 #include "core/srgb.h"
 #include "grammar/ir.h"
 #include "picture/write/image.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -189,4 +192,27 @@ static void display_pixels(void *context, size_t begin, size_t end) {
 void image_to_displayed(const float *linear, size_t pixels, struct image_display display, float *displayed) {
     struct displaying job = {linear, displayed, display, gain_of(display)};
     parallel_for(pixels, PIECE_PIXELS, display_pixels, &job);
+}
+
+// ---- what is cut off
+
+static double brightest(const float c[3]) {
+    return fmax((double)c[0], fmax((double)c[1], (double)c[2]));
+}
+
+double image_clipped(const struct image *image, struct image_display display, double *exposure) {
+    const size_t pixels = (size_t)image->width * image->height;
+    const double most = (1 + 1.0 / 255) / (double)gain_of(display);
+    size_t count = 0;
+    for (size_t i = 0; display.tone == IR_TONE_CLIP && i < pixels; i++)
+        count += brightest(image->rgb + 3 * i) > most;
+    double *values = count ? heap_array(pixels, sizeof *values) : NULL;
+    for (size_t i = 0; values && i < pixels; i++)
+        values[i] = fmin(fmax(brightest(image->rgb + 3 * i), 0), BRIGHTEST);
+    if (values) {
+        quantile_sort(values, pixels);
+        *exposure = -log2(values[(size_t)ceil(0.995 * (double)pixels) - 1]);
+    }
+    free(values);
+    return (double)count / (double)pixels;
 }

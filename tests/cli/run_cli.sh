@@ -151,7 +151,7 @@ expect "and no other" 1 - - grep '^[EN]' family.txt
 expect "explain lists no such code" 2 - "there is no code 'X1'" "$glint" explain --list X1
 expect "explain needs a word" 2 - "'glint explain --list' lists the codes" "$glint" explain
 expect "explain an attribute" 0 'refraction' - "$glint" explain material.albedo
-expect "explain in another style" 0 '^camera.look_at' - "$glint" explain LookAt
+expect "explain in another style" 0 '^camera.focus_at' - "$glint" explain FocusAt
 expect "explain what other programs mean too" 0 "use this word for what is here 'scene.cylinder'" - "$glint" explain tube
 expect "explain a shape that is made of another" 0 'pipe: .lathe: .profile' - "$glint" explain pipes
 expect "explain a path of --set" 0 '^material.albedo' - "$glint" explain materials.glass.albedo.refraction

@@ -5,6 +5,7 @@
 #include "diag/codes/limit.h"
 #include "grammar/ir.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -206,9 +207,32 @@ int render_write_pictures(struct rendering *r, uint32_t camera) {
     return status;
 }
 
+// More than this share of a picture cut off is said.
+#define CLIPPED_MOST 0.05
+
+static void tell_clipped(const struct rendering *r) {
+    const struct image_display display = job_display(&r->job);
+    double exposure = display.exposure;
+    const double share = image_clipped(&r->job.image, display, &exposure);
+    if (share <= CLIPPED_MOST)
+        return;
+    // Towards the darker, so that the number that is read holds.
+    fprintf(
+        stderr,
+        "glint: %.0f %% of the picture is brighter than it can show: image.exposure: %g shows 99.5 %% of it, "
+        "image.tone: neutral all of it\n",
+        100 * share, floor(exposure * 20) / 20 + 0.0);
+}
+
 void render_tell_written(struct rendering *r, uint32_t camera) {
+    bool is_shown = false;
+    for (uint32_t i = 0; i < r->output_count; i++)
+        is_shown =
+            is_shown || (!r->outputs[i].is_part && !image_format_info(r->outputs[i].format)->is_linear);
     for (uint32_t i = 0; i < r->output_count; i++)
         if (!is_stdout(&r->outputs[i]))
             fprintf(stderr, "glint: wrote %s, %u x %u\n", render_output_of(r, &r->outputs[i], camera),
                     r->job.image.width, r->job.image.height);
+    if (is_shown)
+        tell_clipped(r);
 }

@@ -171,6 +171,24 @@ static void test_exposure(void **state) {
     }
 }
 
+// Of 1000 pixels 100 are too bright, and the five brightest may stay so.
+static void test_clipped(void **state) {
+    (void)state;
+    static float rgb[3000];
+    struct image image = {.width = 100, .height = 10, .rgb = rgb};
+    double exposure = 7;
+    for (int i = 0; i < 1000; i++) // 1, or in another channel 4, or 64
+        rgb[3 * i + i % 3] = i % 10 ? 1 : i % 200 ? 4 : 64;
+    assert_true(fabs(image_clipped(&image, plain, &exposure) - 0.1) < 1e-12);
+    assert_true(fabs(exposure + 2) < 1e-9);
+    assert_true(image_clipped(&image, (struct image_display){.exposure = -2}, &exposure) < 0.0051);
+    assert_true(image_clipped(&image, (struct image_display){.exposure = 1}, &exposure) > 0.999);
+    exposure = 7;
+    assert_true(image_clipped(&image, (struct image_display){.tone = IR_TONE_NEUTRAL}, &exposure) == 0);
+    assert_true(image_clipped(&image, (struct image_display){.exposure = -6}, &exposure) == 0);
+    assert_true(exposure == 7);
+}
+
 // The table of thresholds against the formula, on floats of all sizes.
 static void test_srgb(void **state) {
     (void)state;
@@ -379,10 +397,11 @@ static void test_hdr(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_marked),    cmocka_unit_test(test_rounding), cmocka_unit_test(test_note),
-        cmocka_unit_test(test_normalize), cmocka_unit_test(test_tones),    cmocka_unit_test(test_exposure),
-        cmocka_unit_test(test_srgb),      cmocka_unit_test(test_png),      cmocka_unit_test(test_png_repeats),
-        cmocka_unit_test(test_png_size),  cmocka_unit_test(test_pfm),      cmocka_unit_test(test_hdr),
+        cmocka_unit_test(test_marked),      cmocka_unit_test(test_rounding), cmocka_unit_test(test_note),
+        cmocka_unit_test(test_normalize),   cmocka_unit_test(test_tones),    cmocka_unit_test(test_exposure),
+        cmocka_unit_test(test_clipped),     cmocka_unit_test(test_srgb),     cmocka_unit_test(test_png),
+        cmocka_unit_test(test_png_repeats), cmocka_unit_test(test_png_size), cmocka_unit_test(test_pfm),
+        cmocka_unit_test(test_hdr),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
