@@ -137,6 +137,11 @@ void objects_make(struct evaluation *e) {
         if (copies_may(&SCHEMA_SCENE.rows[i])) {
             struct copied_list *made = copies_list(e, &SCHEMA_SCENE.rows[i]);
             made->count = made->first[made->written];
+            if (made->written)
+                continue;
+            arena_give_back(e->loader->input->arena, made->made, made->capacity, sizeof *made->made);
+            made->made = NULL;
+            made->capacity = 0;
         }
     for (uint32_t i = 0; i < e->objects->count; i++)
         end_object(e, &e->objects->items[i]);
