@@ -137,7 +137,7 @@ struct gltf_light {
     str name;
     unsigned kind; // gltf_light_kind
     double color[3];
-    double intensity; // candela or lux
+    double intensity;    // candela or lux
     double inner, outer; // of a spot: half angles, radians
     bool has_range;
 };
