@@ -52,6 +52,10 @@ static str name_of(const struct schema_element *schema, const void *element) {
     return (str){"", 0};
 }
 
+static bool is_by_preset(const struct feature_use *use) {
+    return use->schema == &SCHEMA_MATERIAL && ((const struct ir_material *)use->element)->preset;
+}
+
 static void explain_use(struct feature_walk *w, const struct feature_use *use,
                         struct ir_feature_reason *reason) {
     const struct schema_row *row = &use->schema->rows[use->row];
@@ -76,7 +80,7 @@ static void explain_use(struct feature_walk *w, const struct feature_use *use,
         print_plain_value(&words, row, field);
     }
     if (!count && !ir_walk_written(use->schema, use->row, use->element))
-        strbuf_cstr(&words, " by default");
+        strbuf_cstr(&words, is_by_preset(use) ? " by its preset" : " by default");
     snprintf(reason->words, sizeof reason->words, "%s", words.data ? words.data : "");
     strbuf_finish(&words);
     reason->at = place_of(w, use);

@@ -195,7 +195,7 @@ int schema_find_row(const struct schema_element *element, str name);
 // The words of a row that has words, by their numbers; NULL ends them.
 const char *const *schema_words(const struct schema_element *element, const char *row);
 // The number of one of them; negative: it is not one.
-int schema_word(const char *const *words, const char *text);
+int schema_word(const char *const *words, str text);
 // Index of the row that a YAML key names: by plural for a list or map, by name otherwise, or by name for a
 // named map with `single` (then *is_single is true). -1: none.
 int schema_find_yaml(const struct schema_element *element, str key, bool *is_single);

@@ -120,9 +120,9 @@ const char *const *schema_words(const struct schema_element *element, const char
     return element->rows[schema_find_row(element, str_from(row))].words;
 }
 
-int schema_word(const char *const *words, const char *text) {
+int schema_word(const char *const *words, str text) {
     for (int i = 0; words[i]; i++)
-        if (strcmp(words[i], text) == 0)
+        if (str_equal_cstr(text, words[i]))
             return i;
     return -1;
 }

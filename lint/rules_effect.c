@@ -78,6 +78,14 @@ static void look_at_mirror(struct lint *lint, const struct ir_material *material
         diag_help(lint->sink, "give it a weight of reflection, the third number of albedo, or leave '%s' out",
                   rows[i]);
     }
+    if (!(material->albedo.reflection > 0) && material->metal &&
+        !lint_is_written(&material->head, &SCHEMA_MATERIAL, "metal")) {
+        diag_add(lint->sink, DIAG_UNUSED_VALUE,
+                 ir_place_key(lint->origin, &material->head, &SCHEMA_MATERIAL, "preset"),
+                 "nothing of the metal is seen on %.*s: its 'albedo' has no weight of reflection",
+                 STR_ARG(lint_material_words(lint, material)));
+        diag_help(lint->sink, "leave 'albedo' out, or give it a third number");
+    }
     if (!material->metal || !material->fresnel ||
         !lint_is_written(&material->head, &SCHEMA_MATERIAL, "fresnel"))
         return;

@@ -79,10 +79,16 @@ void scene_build(const struct ir_scene *ir, const struct assets *assets, struct 
 // Weights written to add up to 1 may round to a little more.
 static const double GAIN_ROUNDING = 1e-9;
 
+// The most of a mirrored channel that is left; a metal is white at its edge. Decoding makes no number larger.
+static double mirrored(const struct ir_material *material) {
+    const vec3 color = scene_linear_color(material->reflection_color, IR_TRANSFER_NONE);
+    return material->metal ? 1 : fmax(color.x, fmax(color.y, color.z));
+}
+
 double scene_gain(const struct ir_material *material) {
-    const struct ir_weights *w = &material->albedo;
-    return material->fresnel && !material->metal ? fmax(w->reflection, w->refraction)
-                                                 : w->reflection + w->refraction;
+    const double reflection = material->albedo.reflection * mirrored(material);
+    const double refraction = material->albedo.refraction;
+    return material->fresnel && !material->metal ? fmax(reflection, refraction) : reflection + refraction;
 }
 
 bool scene_amplifies(const struct scene *scene) {

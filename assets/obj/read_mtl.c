@@ -96,7 +96,7 @@ static const struct known_statement {
 } known_statements[] = {
     {"Ka", "ambient light is the scene's, and takes the colour of diffuse light"},
     {"sharpness", "reflections are always sharp"},
-    {"Pm", "materials have no metallic part"},
+    {"Pm", "it is not read; give the model a 'material' with 'metal: true' and a 'reflection_color'"},
     {"Ps", "materials have no sheen"},
     {"Pc", "materials have no clear coat"},
     {"Pcr", "materials have no clear coat"},

@@ -193,7 +193,8 @@ static void note_may_be_unread(struct resolving *resolving, const char *what, sp
                                      what, STR_ARG(say_text(&loader->scratch, name))));
 }
 
-static void list_names(struct loader *loader, const struct named_list *list, const char *what) {
+static void list_names(struct loader *loader, const struct named_list *list, const char *what, str name,
+                       bool is_preset) {
     enum {
         SHOWN = 8
     };
@@ -201,7 +202,10 @@ static void list_names(struct loader *loader, const struct named_list *list, con
     for (uint32_t i = 0; i < list->count && i < SHOWN; i++)
         names = arena_format(&loader->scratch, "%.*s%s%.*s", STR_ARG(names), i ? ", " : "",
                              STR_ARG(say_text(&loader->scratch, list->items[i].name)));
-    if (list->count == 0)
+    if (is_preset)
+        diag_help(loader->input->sink, "a material that is known by its name is a preset: {preset: %.*s}",
+                  STR_ARG(name));
+    else if (list->count == 0)
         diag_help(loader->input->sink, "the scene defines no %s", what);
     else
         diag_help(loader->input->sink, "there %s: %.*s%s", list->count == 1 ? "is" : "are", STR_ARG(names),
@@ -260,7 +264,9 @@ static void report_unknown(struct resolving *resolving, const struct named_list 
         return;
     }
     if (!search || !search->best) {
-        list_names(loader, list, row->child->name);
+        list_names(loader, list, row->child->name, name,
+                   row->child == &SCHEMA_MATERIAL &&
+                       schema_word(schema_words(row->child, "preset"), name) > 0);
         return;
     }
     if (!span_is_none(unread))

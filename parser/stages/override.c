@@ -3,6 +3,7 @@
 #include "parser/stages/override.h"
 #include "diag/codes/binding.h"
 #include "grammar/ir_formula.h"
+#include "grammar/preset.h"
 
 #include "parser/bind/say.h"
 #include "parser/bind/visit.h"
@@ -281,7 +282,11 @@ static void apply(struct loader *loader, struct ir_scene *scene, str option) {
 
 void override_apply(struct loader *loader, struct ir_scene *scene) {
     for (uint32_t i = 0; i < loader->input->set_count; i++) {
+        // A component is set beside the others of the preset, which a later option may change.
+        const bool has_presets = preset_take(scene);
         apply(loader, scene, loader->input->sets[i]);
+        if (has_presets)
+            preset_leave(scene);
         arena_finish(&loader->scratch);
     }
 }

@@ -234,6 +234,11 @@ static struct bind_frame *descend(struct override *o, struct bind_frame *frame, 
 }
 
 static bool is_taken(const struct bind_frame *frame, const struct schema_row *row) {
+    // An element that has no meaning without one of its rows must be written.
+    if (row->choice == 0 && row->kind == SCHEMA_ELEMENT &&
+        row->child->choices[0].rule == SCHEMA_CHOICE_EXACTLY_ONE)
+        return bind_head((struct bind_frame *)frame)->written &
+               bind_bit((uint32_t)(row - frame->schema->rows));
     if (row->choice == 0)
         return true;
     unsigned tag;

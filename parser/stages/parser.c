@@ -13,17 +13,12 @@
 
 #include <stdlib.h>
 
-static void take_presets(struct ir_scene *scene) {
-    for (uint32_t i = 0; i < scene->materials.count; i++)
-        preset_take(&scene->materials.items[i]);
-}
-
 // The stages after merging.
 static void run_scene(struct loader *loader) {
     struct parser_output *output = loader->output;
     const double start = clock_seconds();
     override_apply(loader, output->scene);
-    take_presets(output->scene);
+    preset_take(output->scene);
     names_resolve(loader, output->scene);
     struct ir_scene *objects = unshown_begin(loader, output->scene);
     animate_scene(loader, output->scene);

@@ -281,6 +281,10 @@ static void check_extent(const struct rules *rules, const struct ir_light *light
                   "'%s' is here", kinds[light->kind]);
         if (light->kind == IR_LIGHT_RECTANGLE)
             diag_help(rules->sink, "remove '%s': the edges say how large the light is", extents[i].row);
+        else if (light->kind == IR_LIGHT_POSITION)
+            diag_help(
+                rules->sink,
+                "for a cone of light write spot: {look_at: ..., angle: ...}; for a sphere write 'radius'");
         else
             diag_help(rules->sink, "write '%s', or remove '%s'", extents[1 - i].row, extents[i].row);
     }

@@ -182,8 +182,8 @@ static bool take_display(char **text, struct image_display *display) {
         return false;
     if (exposure)
         *exposure = '\0';
-    const int a = schema_word(schema_words(&SCHEMA_IMAGE, "tone"), tone);
-    const int b = schema_word(schema_words(&SCHEMA_IMAGE, "transfer"), transfer);
+    const int a = schema_word(schema_words(&SCHEMA_IMAGE, "tone"), str_from(tone));
+    const int b = schema_word(schema_words(&SCHEMA_IMAGE, "transfer"), str_from(transfer));
     *display = (struct image_display){(unsigned)a, (unsigned)b, stops};
     return a >= 0 && b >= 0;
 }

@@ -201,6 +201,21 @@ expect "--set with blanks" 0 'fov: 30' - "$glint" inspect --ir good.yaml --set '
 expect "--set with a whole entry" 0 'radius: 7' - "$glint" inspect --ir good.yaml --set 'spheres[0]={center: [0, 0, 0], radius: 7}'
 expect "--set that cannot be read" 2 - "'=' is missing" "$glint" check good.yaml --set 'camera.fov'
 expect "--set through a name" 1 - 'E221.*|to change it wherever it is used: --set materials' "$glint" check moved/up.yaml --set 'models[0].material.albedo=[1, 0, 0, 0]'
+cat >preset.yaml <<'END'
+glint: 1
+lights: [{position: [0, 5, 0]}]
+materials: {a: {preset: gold}}
+spheres: [{center: [0, 0, -5], radius: 1, material: a}]
+END
+expect "--set of a component beside a preset's" 0 'reflection_color: .0.5, 0.776, 0.373.' - "$glint" inspect --ir=evaluated preset.yaml --set materials.a.reflection_color.r=0.5
+expect "--set of a preset, and of a component beside its" 0 'reflection_color: .0.5, 0.949, 0.922.' - \
+    "$glint" inspect --ir=evaluated preset.yaml --set materials.a.preset=silver --set materials.a.reflection_color.r=0.5
+expect "--set of a weight beside a preset's" 0 'albedo: .0, 1, 0.25, 0.' - "$glint" inspect --ir=evaluated preset.yaml --set materials.a.albedo.reflection=0.25
+"$glint" convert --expanded preset.yaml clay.glint.yaml >/dev/null && sed -i 's/gold/clay/' clay.glint.yaml
+"$glint" render preset.yaml --size 16x12 --device reference --set materials.a.preset=clay -q -o one.pfm
+"$glint" render clay.glint.yaml --size 16x12 --device reference -q -o other.pfm
+cmp -s one.pfm other.pfm && pass "of the preset before it nothing is left" || fail "a preset that is set is another than one that is written"
+expect "--set of a part of a spot that is not written" 1 - 'can only be set as a whole' "$glint" check preset.yaml --set lights[0].spot.angle=10
 expect "--set changes a value" 0 'radius: 2' - "$glint" inspect --ir good.yaml --set 'spheres[0].radius=2'
 expect "--set with a mistake" 1 - 'error:.*E206' "$glint" inspect --ir good.yaml --set 'spheres[0].radius=-2'
 expect "--set that leads nowhere" 1 - 'error:.*E220' "$glint" check good.yaml --set 'sphere[0].radius=2'

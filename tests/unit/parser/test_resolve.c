@@ -197,9 +197,10 @@ static void names_find_what_they_name(void **state) {
     (void)state;
     loaded_check(HEAD_YAML SPHERE(", material: glas") "materials: {glass: {}, jade: {}}\n", "E301",
                  "did you mean 'glass'?");
-    loaded_check(HEAD_YAML SPHERE(", material: gold") "materials: {iron: {}, jade: {}}\n", "E301",
+    loaded_check(HEAD_YAML SPHERE(", material: lead") "materials: {iron: {}, jade: {}}\n", "E301",
                  "there are: iron, jade");
-    loaded_check(HEAD_YAML SPHERE(", material: gold"), "E301", "the scene defines no material");
+    loaded_check(HEAD_YAML SPHERE(", material: gold"), "E301", "{preset: gold}");
+    loaded_check(HEAD_YAML SPHERE(", material: lead"), "E301", "the scene defines no material");
     // A material with a bad name or of a bad shape is there all the same.
     loaded_check(HEAD_YAML SPHERE(", material: 1x") "materials: {1x: {}}\n", "E212", NULL);
     loaded_check(HEAD_YAML SPHERE(", material: x") "materials: {x: 5}\n", "E209", NULL);

@@ -49,7 +49,7 @@ struct bench {
 static void build(struct bench *b, struct scene *scene, uint64_t key[2]) {
     struct hash128 h;
     const struct ir_material written = b->material;
-    preset_take(&b->material);
+    preset_fill(&b->material);
     scene_build(&b->ir, &b->assets, &b->arena, scene);
     b->material = written;
     hash128_begin(&h);
