@@ -92,7 +92,7 @@ static void put_medium(const struct pick *pick, const struct reference_segment *
         where_body_words(&where, out);
     }
     if (s->tint.x < 1 || s->tint.y < 1 || s->tint.z < 1)
-        strbuf_format(out, ", attenuated to %.4g %.4g %.4g", s->tint.x, s->tint.y, s->tint.z);
+        strbuf_format(out, ", tinted %.4g %.4g %.4g", s->tint.x, s->tint.y, s->tint.z);
 }
 
 static void put_segment(const struct pick *pick, const struct pick_log *log, uint32_t index,

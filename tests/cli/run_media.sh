@@ -179,7 +179,7 @@ expect "what a ray is inside" 0 "refracted from 0, weight 0.8, inside sphere 'ba
 also "and that it passes" "sphere 'kernel', at .*passes unseen: the medium stays the same" -
 expect "the same in JSON" 0 '"inside": "sphere .ball."' - "$glint" pick two.yaml 48,36 --device reference --format json
 also "and there" '"passes": true' -
-expect "what is lost on the way" 0 'attenuated to 0\.[0-9]+ 0\.[0-9]+ 0\.' - "$glint" pick coloured.yaml 48,36 --device reference
+expect "what is lost on the way" 0 'tinted 0\.[0-9]+ 0\.[0-9]+ 0\.' - "$glint" pick coloured.yaml 48,36 --device reference
 
 {
     echo 'spheres:'
