@@ -3,6 +3,7 @@
 #include "core/arena.h"
 #include "grammar/ir.h"
 #include "grammar/ir_copies.h"
+#include "grammar/ir_formula.h"
 #include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 
@@ -76,8 +77,31 @@ void ir_expand_instances(struct ir_scene *scene, struct arena *arena) {
     scene->copies = NULL;
 }
 
+bool ir_moves(const struct ir_scene *scene) {
+    bool moves = scene->animation.tracks.count > 0;
+    for (uint32_t i = 0; scene->formulas && i < scene->formulas->count && !moves; i++)
+        moves = scene->formulas->items[i].moves;
+    const uint32_t row = (uint32_t)schema_find_row(&SCHEMA_SCENE, STR("animation"));
+    return moves && ir_walk_written(&SCHEMA_SCENE, row, scene);
+}
+
+static void keep_what_moves(struct ir_scene *scene, struct arena *arena) {
+    for (uint32_t i = 0; scene->formulas && i < scene->formulas->count; i++)
+        if (!scene->formulas->items[i].moves)
+            scene->formulas->items[i].row = NULL; // of no value
+    for (uint32_t i = 0; i < scene->parameters.count; i++) {
+        const struct ir_result *result = &scene->formulas->results[i];
+        if (!result->moves)
+            scene->parameters.items[i].value = ir_result_text(result, arena);
+    }
+}
+
 void ir_expand(struct ir_scene *scene, struct arena *arena) {
-    scene->formulas = NULL;
-    scene->parameters.count = 0;
+    if (ir_moves(scene)) {
+        keep_what_moves(scene, arena);
+    } else {
+        scene->formulas = NULL;
+        scene->parameters.count = 0;
+    }
     ir_expand_instances(scene, arena);
 }

@@ -15,6 +15,18 @@ static uint32_t push(struct arena *arena, struct ir_formulas *formulas, struct i
     return formulas->count - 1;
 }
 
+str ir_result_text(const struct ir_result *result, struct arena *arena) {
+    struct strbuf value;
+    strbuf_init(&value);
+    expression_print(result->type, result->value, &value);
+    str text = strbuf_view(&value);
+    if (text.len && text.ptr[0] == '[')
+        text = str_slice(text, 1, text.len - 1);
+    text = arena_copy(arena, text);
+    strbuf_finish(&value);
+    return text;
+}
+
 struct ir_formulas *ir_formulas_new(struct arena *arena) {
     struct ir_formulas *formulas = ARENA_NEW(arena, struct ir_formulas);
     push(arena, formulas, (struct ir_formula){.row = NULL});

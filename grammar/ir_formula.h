@@ -26,11 +26,13 @@ struct ir_formula {
     int component;                // of a vector, colour or weights; IR_FORMULA_WHOLE
     str text;                     // as written
     span at;                      // the text in its file, with its quotes
+    bool moves;                   // was evaluated, and depends on the frame
     uint32_t next;                // of the same element; 0: none
 };
 // What a parameter came to in the frame that was loaded; without one: in frame 0.
 struct ir_result {
     bool is_known; // else a mistake in it was reported
+    bool moves;    // depends on the frame
     enum expression_type type;
     double value[EXPRESSION_WIDTH];
 };
@@ -39,6 +41,9 @@ struct ir_formulas {
     uint32_t count, capacity;  // items[0] is none
     struct ir_result *results; // of the scene's parameters, by their index; NULL before they are evaluated
 };
+
+// As the text of a parameter's value.
+str ir_result_text(const struct ir_result *result, struct arena *arena);
 
 struct ir_formulas *ir_formulas_new(struct arena *arena);
 struct ir_formulas *ir_formulas_copy(const struct ir_formulas *from, struct arena *arena);

@@ -59,7 +59,7 @@ static void put_list(struct strbuf *out, str text, bool several, bool json) {
         strbuf_char(out, '[');
     for (bool first = true; ir_values_next(&text, &value); first = false) {
         strbuf_cstr(out, first ? "" : ", ");
-        if (is_number(value, &number))
+        if (is_number(value, &number) || str_equal(value, STR("true")) || str_equal(value, STR("false")))
             strbuf_str(out, value);
         else if (ir_values_open(value, &inside))
             put_list(out, inside, true, json);

@@ -156,7 +156,7 @@ struct light_finding {
 };
 
 // Whether it is a sphere that is not entirely inside the body: then some of its light gets out.
-static bool reaches_out(const struct ir_light *light, const struct lint_body *body, double near) {
+static bool reaches_out(const struct view_light *light, const struct lint_body *body, double near) {
     const double radius = light->radius;
     const vec3 p = light->position, lower = body->box.lower, upper = body->box.upper;
     if (!(radius > 0))
@@ -171,7 +171,7 @@ static bool reaches_out(const struct ir_light *light, const struct lint_body *bo
            p.x + radius > upper.x || p.y + radius > upper.y || p.z + radius > upper.z;
 }
 
-static struct light_finding judge_light(struct lint *lint, const struct ir_light *light,
+static struct light_finding judge_light(struct lint *lint, const struct view_light *light,
                                         const struct lint_body *body) {
     // A few units in the last place of the light's and the body's coordinates in single precision.
     double near = LINT_RESOLUTION * fmax(body_size(body), vec3_max_abs(light->position));
@@ -188,9 +188,11 @@ static struct light_finding judge_light(struct lint *lint, const struct ir_light
     return found;
 }
 
-static void report_light(struct lint *lint, const struct ir_light *light, const struct light_finding *found) {
+static void report_light(struct lint *lint, const struct view_light *light,
+                         const struct light_finding *found) {
     const struct lint_body *body = found->body;
-    span at = ir_place_value(lint->origin, &light->head, &SCHEMA_LIGHT, "position");
+    span at =
+        ir_place_value(lint->origin, &lint->ir->lights.items[light->index].head, &SCHEMA_LIGHT, "position");
     if (!found->is_on) {
         diag_add(lint->sink, DIAG_LIGHT_INSIDE, at,
                  "this light is inside %.*s, which blocks its light from everything outside",
@@ -224,8 +226,8 @@ struct light_search {
 
 static bool take_light(void *context, const void *of) {
     struct light_search *s = context;
-    const struct ir_light *light = of;
-    struct light_finding *found = &s->found[light - s->lint->ir->lights.items];
+    const struct view_light *light = of;
+    struct light_finding *found = &s->found[light->index];
     s->work++;
     if (!found->body)
         *found = judge_light(s->lint, light, s->body);
@@ -235,8 +237,8 @@ static bool take_light(void *context, const void *of) {
 static uint32_t collect_lights(const struct lint *lint, struct lint_box_item *items) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < lint->ir->lights.count; i++) {
-        const struct ir_light *light = &lint->ir->lights.items[i];
-        if (light->kind != IR_LIGHT_POSITION)
+        const struct view_light *light = &lint->views[0].lights[i];
+        if (light->directional || light->extent == VIEW_PANEL)
             continue;
         // Twice what judge_light allows for the light's size: a body with a light within its reach must be
         // found here, however the sums round.
@@ -266,5 +268,5 @@ void lint_light_inside(struct lint *lint) {
     }
     for (uint32_t i = 0; i < light_count; i++)
         if (s.found[i].body)
-            report_light(lint, &lint->ir->lights.items[i], &s.found[i]);
+            report_light(lint, &lint->views[0].lights[i], &s.found[i]);
 }

@@ -50,21 +50,22 @@ void lint_few_samples(struct lint *lint) {
 }
 
 // Whether all of the box is within the sphere.
-static bool is_around(const struct ir_light *light, const struct lint_box *box) {
+static bool is_around(const struct view_light *light, const struct lint_box *box) {
     const vec3 a = vec3_sub(box->lower, light->position), b = vec3_sub(light->position, box->upper);
     const vec3 far = {fmax(fabs(a.x), fabs(b.x)), fmax(fabs(a.y), fabs(b.y)), fmax(fabs(a.z), fabs(b.z))};
     return vec3_length(far) < light->radius;
 }
 
-static void report_around(struct lint *lint, const struct ir_light *light, str what, span where) {
-    diag_add(lint->sink, DIAG_LIGHT_AROUND,
-             ir_place_value(lint->origin, &light->head, &SCHEMA_LIGHT, "radius"),
-             "this light is a sphere around %.*s", STR_ARG(what));
+static void report_around(struct lint *lint, const struct view_light *light, str what, span where) {
+    diag_add(
+        lint->sink, DIAG_LIGHT_AROUND,
+        ir_place_value(lint->origin, &lint->ir->lights.items[light->index].head, &SCHEMA_LIGHT, "radius"),
+        "this light is a sphere around %.*s", STR_ARG(what));
     diag_note(lint->sink, where, "here");
     diag_help(lint->sink, "choose a smaller radius, or move the light");
 }
 
-static bool find_camera(struct lint *lint, const struct ir_light *light) {
+static bool find_camera(struct lint *lint, const struct view_light *light) {
     for (uint32_t k = 0; k < lint->ir->cameras.count; k++) {
         const struct ir_camera *camera = &lint->ir->cameras.items[k];
         if (vec3_length(vec3_sub(camera->position, light->position)) >= light->radius)
@@ -81,7 +82,7 @@ enum {
 };
 
 // Whether it is a lamp with the light at its centre: rays to the light end before the lamp.
-static bool is_lamp(const struct lint *lint, const struct ir_light *light, const struct lint_body *body) {
+static bool is_lamp(const struct lint *lint, const struct view_light *light, const struct lint_body *body) {
     const vec3 middle = body->is->object_to_world.offset;
     return body->is->shape == SCENE_SPHERE && vec3_length(vec3_sub(middle, light->position)) == 0 &&
            !vec3_is_zero(lint->scene->materials[body->is->materials[0]].emission);
@@ -90,8 +91,8 @@ static bool is_lamp(const struct lint *lint, const struct ir_light *light, const
 void lint_light_around(struct lint *lint) {
     uint64_t work = 0;
     for (uint32_t i = 0; i < lint->ir->lights.count && work < WORK_MAX; i++) {
-        const struct ir_light *light = &lint->ir->lights.items[i];
-        if (light->kind != IR_LIGHT_POSITION || !(light->radius > 0) || find_camera(lint, light))
+        const struct view_light *light = &lint->views[0].lights[i];
+        if (light->extent != VIEW_SPHERE || find_camera(lint, light))
             continue;
         work += lint->body_count;
         for (uint32_t k = 0; k < lint->body_count; k++) {

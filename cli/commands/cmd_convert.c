@@ -3,7 +3,6 @@
 #include "diag/codes/limit.h"
 #include "edit/convert.h"
 #include "grammar/ir_expand.h"
-#include "grammar/ir_walk.h"
 #include "grammar/schema.h"
 
 #include <string.h>
@@ -44,14 +43,9 @@ static bool is_onto_itself(const struct cli *cli) {
            in.st_dev == out.st_dev && in.st_ino == out.st_ino;
 }
 
-static bool is_moving(const struct session *session) {
-    const uint32_t animation = (uint32_t)schema_find_row(&SCHEMA_SCENE, STR("animation"));
-    return session->origin.motion.frames > 0 && ir_walk_written(&SCHEMA_SCENE, animation, session->scene);
-}
-
 // Values in the place of all that is computed. false: reported.
 static bool expand(struct cli *cli, struct session *session) {
-    if (is_moving(session)) {
+    if (ir_moves(session->scene)) {
         cli_usage(cli, cli_operand_place(cli, 0),
                   "this scene moves, and an expanded scene is one frame of it");
         diag_help(&cli->sink, "add --frame 0, or another frame");

@@ -68,7 +68,7 @@ static const struct cli_command commands[] = {
      "With --ir, prints the scene as glint understood it, in one file: the same text for two files that say\n"
      "the same. With --ir=evaluated it is that of two files that mean the same: expressions are their "
      "values\n"
-     "(what moves, in a --frame), and every copy is written out.\n\n"
+     "(what moves, and parameters with it, only in a --frame), and every copy is written out.\n\n"
      "Of a picture that glint rendered: its scene's hash, glint's version, the device, settings, the "
      "command\n"
      "that makes it again, and its accuracy (docs/provenance.md). --format is text or json, of both.\n\n"

@@ -209,12 +209,16 @@ static size_t block_text_end(str text, size_t at, uint32_t from) {
     return end;
 }
 
+static uint32_t after_blanks(str text, uint32_t at) {
+    while (at < text.len && char_is_blank(text.ptr[at]))
+        at++;
+    return at;
+}
+
 // Whether an LS or PS is all that ends the line before `end`: a line end after it would be one more line,
 // which counts if the text keeps its empty lines.
 static bool ends_with_separator(const struct printer *p, uint32_t end) {
-    uint32_t next = end;
-    while (next < p->text.len && char_is_blank(p->text.ptr[next]))
-        next++;
+    const uint32_t next = after_blanks(p->text, end);
     return str_yaml_break_before(p->text, end) && next < p->text.len && !str_yaml_break_length(p->text, next);
 }
 
@@ -261,7 +265,7 @@ static void put_block_text(struct printer *p, enum join join, uint32_t indent) {
     p->gap = end;
     if (keeps_breaks && ends_with_separator(p, end))
         format_lines_ended(p->lines);
-    p->lines->is_open = end == p->text.len;
+    p->lines->is_open = after_blanks(p->text, end) == p->text.len;
 }
 
 // ---- nodes
@@ -358,9 +362,7 @@ static bool put_flow_entry(struct printer *p, enum join join, uint32_t indent) {
 // A separator of entries, or a property of a value, stays at the beginning of its line if a comment follows:
 // on the line before, the comment would belong to the entry there.
 static enum join join_before_comment(const struct printer *p, enum join otherwise) {
-    uint32_t behind = peek(p)->end;
-    while (behind < p->text.len && char_is_blank(p->text.ptr[behind]))
-        behind++;
+    const uint32_t behind = after_blanks(p->text, peek(p)->end);
     bool comment = behind < p->text.len && p->text.ptr[behind] == '#';
     return comment ? flow_join(p, otherwise) : otherwise;
 }

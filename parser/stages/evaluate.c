@@ -101,6 +101,7 @@ static void keep_moving(struct evaluation *e, const struct bind_frame *frame, co
     if (ARENA_IS_FULL(&e->moving))
         e->moving.items = arena_regrow(arena, e->moving.items, e->moving.count, &e->moving.capacity,
                                        sizeof *e->moving.items);
+    e->scene->formulas->items[f - e->scene->formulas->items].moves = true;
     e->moving.items[e->moving.count++] =
         (struct moving_formula){f, *expression, keep_frame(arena, frame), e->entry, e->places, e->instance};
 }

@@ -193,6 +193,14 @@ bool evaluation_set_frame(struct evaluation *e, double frame, double time) {
     return good;
 }
 
+static struct ir_result result_of(const struct evaluation *e, uint32_t i) {
+    const struct parameter *p = &e->items[i];
+    struct ir_result result = {
+        .is_known = p->state == PARAMETER_DONE, .moves = p->moves, .type = p->value.type};
+    memcpy(result.value, e->values + (size_t)EXPRESSION_WIDTH * i, sizeof result.value);
+    return result;
+}
+
 void evaluation_stop(struct evaluation *e) {
     struct ir_origin *places = &e->loader->output->origin;
     for (uint32_t i = 0; i < e->moving.count; i++) {
@@ -202,29 +210,17 @@ void evaluation_stop(struct evaluation *e) {
                             m->formula->slot, m->formula->component);
     }
     for (uint32_t i = 0; i < e->count; i++) {
-        const struct parameter *p = &e->items[i];
-        struct strbuf value;
-        if (!p->moves || p->state != PARAMETER_DONE)
-            continue;
-        strbuf_init(&value);
-        expression_print(p->value.type, e->values + (size_t)EXPRESSION_WIDTH * i, &value);
-        str text = strbuf_view(&value);
-        if (text.len && text.ptr[0] == '[')
-            text = str_slice(text, 1, text.len - 1);
-        e->scene->parameters.items[i].value = arena_copy(e->loader->input->arena, text);
-        strbuf_finish(&value);
+        const struct ir_result result = result_of(e, i);
+        if (result.moves && result.is_known)
+            e->scene->parameters.items[i].value = ir_result_text(&result, e->loader->input->arena);
     }
 }
 
 void evaluation_keep(const struct evaluation *e) {
     struct ir_formulas *formulas = e->scene->formulas;
     formulas->results = ARENA_ARRAY(e->loader->input->arena, struct ir_result, e->count);
-    for (uint32_t i = 0; i < e->count; i++) {
-        struct ir_result *result = &formulas->results[i];
-        *result = (struct ir_result){.is_known = e->items[i].state == PARAMETER_DONE,
-                                     .type = e->items[i].value.type};
-        memcpy(result->value, e->values + (size_t)EXPRESSION_WIDTH * i, sizeof result->value);
-    }
+    for (uint32_t i = 0; i < e->count; i++)
+        formulas->results[i] = result_of(e, i);
 }
 
 // From the last to the first: what a used one is computed from is used.

@@ -199,6 +199,7 @@ static void test_yaml_separators(void **state) {
     yaml("glint: 1\nx-a: |+\n a\n" LS "x-b: 1\n", "glint: 1\nx-a: |+\n  a\n  " LS "x-b: 1\n");
     yaml("glint: 1\nx-a: |+\n a\n" LS "# c\nx-b: 1\n", "glint: 1\nx-a: |+\n  a\n  " LS "# c\nx-b: 1\n");
     yaml("glint: 1\nx-a: |+\n a" LS "\nx-b: 1\n", "glint: 1\nx-a: |+\n  a" LS "\nx-b: 1\n");
+    yaml("glint: 1\nx-a: |+\n a\n" LS " ", "glint: 1\nx-a: |+\n  a\n  " LS);
     yaml("glint: 1\nx-a: |\n a\n" LS "x-b: 1\n", "glint: 1\nx-a: |\n  a\n\nx-b: 1\n");
     // Lines of other texts after them are indented like others.
     yaml("glint: 1\nx-a:\n- b" LS " c\n", "glint: 1\nx-a:\n  - b" LS "    c\n");

@@ -45,7 +45,7 @@ int cmd_inspect(struct cli *cli) {
     if (good && cli->options.ir == CLI_IR_WRITTEN) {
         ir_dump(session.origin.written ? session.origin.written : session.scene, &text);
     } else if (good && cli->options.ir) {
-        ir_expand_instances(session.scene, &session.arena);
+        ir_expand(session.scene, &session.arena);
         ir_dump(session.scene, &text);
     } else if (good) {
         good = describe(&session, format == 1, &text);
