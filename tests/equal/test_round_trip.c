@@ -152,7 +152,8 @@ static void test_expanded_scenes(void **state) {
         load_evaluated(&second, "scene.yaml", what, &text, after);
         ir_expand(second.output.scene, &second.arena);
         assert_same_scenes(what, first.output.scene, second.output.scene);
-        if (strstr(text.data, "\nparameters:") || strstr(text.data, "for: {"))
+        if ((!ir_moves(first.output.scene) && strstr(text.data, "\nparameters:")) ||
+            strstr(text.data, "for: {"))
             fail_msg("%s is not written out: %s", what, text.data);
         loaded_finish(&first), loaded_finish(&second), loaded_finish(&twin);
         strbuf_finish(&text);
