@@ -88,8 +88,8 @@ void image_to_words(const struct image *image, struct image_display display, uin
 void image_to_displayed(const float *linear, size_t pixels, struct image_display display, float *displayed);
 
 // Of the pixels, the share of which a channel is cut off, being brighter than 1 by more than a byte's step,
-// and the exposure at which 99.5 % are not cut off. 0: none is, or the tone cuts nothing off; then, and
-// without memory, `exposure` is as it was.
+// and the exposure at which 99.5 % are not cut off. 0: none is, the tone cuts nothing off, or the pixels are
+// not in memory (rgb is NULL); then, and without memory, `exposure` is as it was.
 double image_clipped(const struct image *image, struct image_display display, double *exposure);
 
 // Texts are text chunks of a PNG, comments of a JPEG and in the head of an HDR, and attributes of an OpenEXR

@@ -201,7 +201,7 @@ static double brightest(const float c[3]) {
 }
 
 double image_clipped(const struct image *image, struct image_display display, double *exposure) {
-    const size_t pixels = (size_t)image->width * image->height;
+    const size_t pixels = image->rgb ? heap_times(image->width, image->height) : 0;
     const double most = (1 + 1.0 / 255) / (double)gain_of(display);
     size_t count = 0;
     for (size_t i = 0; display.tone == IR_TONE_CLIP && i < pixels; i++)
@@ -214,5 +214,5 @@ double image_clipped(const struct image *image, struct image_display display, do
         *exposure = -log2(values[(size_t)ceil(0.995 * (double)pixels) - 1]);
     }
     free(values);
-    return (double)count / (double)pixels;
+    return pixels ? (double)count / (double)pixels : 0;
 }
