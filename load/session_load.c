@@ -328,7 +328,7 @@ static struct parser_input parser_input(struct session *session) {
                                  .sets = session->options.sets,
                                  .set_count = session->options.set_count,
                                  .keeps_written = session->options.keeps_written,
-                                 .judges_objects = session->options.judged,
+                                 .judges_objects = true,
                                  .timeline = session->options.timeline};
 }
 
