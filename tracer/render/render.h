@@ -211,17 +211,17 @@ struct render_segment {
     uint32_t parent; // index in the log; UINT32_MAX for the camera's ray
     uint32_t depth;  // max_depth + 1: not traced, sees what depth_limit says
     double weight;
-    vec3 origin, direction;  // scene units; unit
-    uint32_t body, triangle; // as in struct hit_pixel
-    uint32_t material;       // in assets.materials; UINT32_MAX where nothing was hit
-    uint32_t light;          // body HIT_NONE: of the view, that the ray sees; UINT32_MAX: none
-    bool enters;             // the ray comes from outside the body
-    bool passes;             // it goes straight on, unseen: the medium is the same on both sides
-    uint32_t medium;         // the body that fills the space that the ray goes through; HIT_NONE: air
-    vec3 tint;               // what attenuation and coloured mirrors have left of each channel at its end
-    bool total_reflection;   // the refracted ray was turned back
-    bool unfinished;         // a ray to it or to a light did not end
-    double distance;         // scene units; 0 where nothing was hit
+    vec3 origin, direction;         // scene units; unit
+    uint32_t body, triangle;        // as in struct hit_pixel
+    uint32_t material;              // in assets.materials; UINT32_MAX where nothing was hit
+    uint32_t light;                 // body HIT_NONE: of the view, that the ray sees; UINT32_MAX: none
+    bool enters;                    // the ray comes from outside the body
+    bool passes;                    // it goes straight on, unseen: the medium is the same on both sides
+    uint32_t medium;                // the body that fills the space that the ray goes through; HIT_NONE: air
+    vec3 tint;                      // what is left of each channel at its end
+    bool total_reflection;          // the refracted ray was turned back
+    bool unfinished;                // a ray to it or to a light did not end
+    double distance;                // scene units; 0 where nothing was hit
     vec3 point, geometric, shading; // scene units; unit, towards the ray; 0 where nothing was hit
     uint32_t considered, lit;       // as in struct hit_pixel
     vec3 radiance;     // direct light of the surface, or the background; times weight and tint it is what the
