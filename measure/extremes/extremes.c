@@ -53,10 +53,6 @@ static size_t pixels_of(const struct run *run) {
     return heap_times(run->input->width, run->input->height);
 }
 
-static struct image_display display_of(const struct ir_scene *scene) {
-    return image_display_of(&scene->image);
-}
-
 // ---- the device's side
 
 static enum extremes_status choose_precision(const struct run *run, const struct variant *v,
@@ -80,7 +76,7 @@ static enum extremes_status choose_precision(const struct run *run, const struct
 
 static void show(const void *context, const float *linear, size_t pixels, float *shown) {
     const struct variant *v = context;
-    image_to_displayed(linear, pixels, display_of(&v->ir), shown);
+    image_to_displayed(linear, pixels, image_display_of(&v->ir.image), shown);
 }
 
 static enum extremes_status draw(struct run *run, const struct variant *v, const struct flat_scene *flat) {
@@ -201,8 +197,8 @@ static bool compare_pictures(struct run *run, const struct variant *v, struct ex
         not_finite += image_is_marked(run->rgb + 3 * i);
     for (size_t i = 0; i < 3 * count; i++)
         run->shown[1][i] = (float)run->exact[i];
-    image_to_displayed(run->shown[1], count, display_of(&v->ir), run->shown[1]);
-    image_to_displayed(run->rgb, count, display_of(&v->ir), run->shown[0]);
+    image_to_displayed(run->shown[1], count, image_display_of(&v->ir.image), run->shown[1]);
+    image_to_displayed(run->rgb, count, image_display_of(&v->ir.image), run->shown[0]);
     if (!measure(run, run->shown[0], run->shown[1], &result))
         return false;
     cell->measured[EXTREME_NOT_FINITE] = (double)not_finite;
@@ -256,7 +252,7 @@ static enum extremes_status compare_limit(struct run *run, struct extreme_cell *
     const enum extremes_status status = trace_flattened(run, v, &input, &other);
     if (status != EXTREMES_DONE || other.left_out)
         return status;
-    image_to_displayed(run->rgb, pixels_of(run), display_of(&v->ir), run->shown[1]);
+    image_to_displayed(run->rgb, pixels_of(run), image_display_of(&v->ir.image), run->shown[1]);
     if (!measure(run, run->shown[0], run->shown[1], &result))
         return EXTREMES_MEMORY;
     cell->measured[EXTREME_LIMIT] = result.value[METRIC_SHARE];
@@ -366,7 +362,7 @@ static enum extremes_status make_rest(struct run *run) {
     float *rest = heap_array(heap_times(3, pixels_of(run)), sizeof *rest);
     if (!rest)
         return EXTREMES_MEMORY;
-    image_to_displayed(run->rgb, pixels_of(run), display_of(run->input->scene->ir), rest);
+    image_to_displayed(run->rgb, pixels_of(run), image_display_of(&run->input->scene->ir->image), rest);
     run->rest = rest;
     return EXTREMES_DONE;
 }

@@ -41,9 +41,13 @@ struct ir_scene *unshown_begin(const struct loader *loader, const struct ir_scen
 }
 
 static void mark_shown(const struct ir_object *object, bool *is_shown) {
-    for (uint32_t i = 0; i < object->instances.count; i++)
-        if (object->instances.items[i].object.index != IR_NO_INDEX)
-            is_shown[object->instances.items[i].object.index] = true;
+    const int row = schema_find_row(&SCHEMA_INSTANCE, STR("if"));
+    for (uint32_t i = 0; i < object->instances.count; i++) {
+        const struct ir_instance *instance = &object->instances.items[i];
+        const bool is_made = instance->copies.count == 0 && !(instance->head.written >> row & 1);
+        if (is_made && instance->object.index != IR_NO_INDEX)
+            is_shown[instance->object.index] = true;
+    }
 }
 
 static void keep_in_place(const struct ir_objects *objects, const struct ir_object *object, bool *is_kept) {
@@ -92,8 +96,8 @@ void unshown_judge(struct loader *loader, struct ir_scene *scene) {
     struct parser_output *beside = ARENA_NEW(loader->input->arena, struct parser_output);
     if (!real->scene->copies)
         return;
-    add_instances(loader, scene, real->scene->copies);
     clear_in_place(&scene->objects, &loader->scratch);
+    add_instances(loader, scene, real->scene->copies);
     if (!scene->instances.count)
         return;
     *beside = *real;

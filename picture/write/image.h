@@ -88,9 +88,10 @@ void image_to_words(const struct image *image, struct image_display display, uin
 void image_to_displayed(const float *linear, size_t pixels, struct image_display display, float *displayed);
 
 // Of the pixels, the share of which a channel is cut off, being brighter than 1 by more than a byte's step,
-// and the exposure at which 99.5 % are not cut off. 0: none is, the tone cuts nothing off, or the pixels are
-// not in memory (rgb is NULL); then, and without memory, `exposure` is as it was.
-double image_clipped(const struct image *image, struct image_display display, double *exposure);
+// and the exposure at which 99.5 % are not cut off. 0, with `exposure` as it was: it is at most `least`
+// (0.005 or more), the tone cuts nothing off, the pixels are not in memory (rgb is NULL), or there is no
+// memory.
+double image_clipped(const struct image *image, struct image_display display, double least, double *exposure);
 
 // Texts are text chunks of a PNG, comments of a JPEG and in the head of an HDR, and attributes of an OpenEXR
 // ("Scene hash": sceneHash). A WebP does not have them, and a PFM has no room for them; a JPEG leaves out a

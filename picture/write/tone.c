@@ -200,19 +200,26 @@ static double brightest(const float c[3]) {
     return fmax((double)c[0], fmax((double)c[1], (double)c[2]));
 }
 
-double image_clipped(const struct image *image, struct image_display display, double *exposure) {
+double image_clipped(const struct image *image, struct image_display display, double least,
+                     double *exposure) {
     const size_t pixels = image->rgb ? heap_times(image->width, image->height) : 0;
     const double most = (1 + 1.0 / 255) / (double)gain_of(display);
-    size_t count = 0;
+    const size_t dark = (size_t)ceil(0.995 * (double)pixels); // so many are shown
+    size_t count = 0, taken = 0;
     for (size_t i = 0; display.tone == IR_TONE_CLIP && i < pixels; i++)
         count += brightest(image->rgb + 3 * i) > most;
-    double *values = count ? heap_array(pixels, sizeof *values) : NULL;
+    if (count == 0 || (double)count <= least * (double)pixels)
+        return 0;
+    double *values = heap_array(count, sizeof *values);
     for (size_t i = 0; values && i < pixels; i++)
-        values[i] = fmin(fmax(brightest(image->rgb + 3 * i), 0), BRIGHTEST);
-    if (values) {
-        quantile_sort(values, pixels);
-        *exposure = -log2(values[(size_t)ceil(0.995 * (double)pixels) - 1]);
+        if (brightest(image->rgb + 3 * i) > most)
+            values[taken++] = fmin(brightest(image->rgb + 3 * i), BRIGHTEST);
+    if (!values || dark <= pixels - count) {
+        free(values);
+        return 0;
     }
+    quantile_sort(values, count);
+    *exposure = -log2(values[dark - (pixels - count) - 1]);
     free(values);
-    return pixels ? (double)count / (double)pixels : 0;
+    return (double)count / (double)pixels;
 }

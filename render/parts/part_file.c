@@ -19,8 +19,6 @@ enum {
     SEAL_BYTES = 8,
 };
 
-// As the file has them: the words of the scene's image element.
-
 uint32_t part_planes(const struct part *part) {
     const uint32_t samples = part->end_sample - part->first_sample;
     return samples == part->samples ? 1 : samples;

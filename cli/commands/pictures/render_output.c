@@ -213,8 +213,8 @@ int render_write_pictures(struct rendering *r, uint32_t camera) {
 static void tell_clipped(const struct rendering *r) {
     const struct image_display display = job_display(&r->job);
     double exposure = display.exposure;
-    const double share = image_clipped(&r->job.image, display, &exposure);
-    if (share <= CLIPPED_MOST)
+    const double share = image_clipped(&r->job.image, display, CLIPPED_MOST, &exposure);
+    if (share == 0)
         return;
     // Towards the darker, so that the number that is read holds.
     fprintf(

@@ -179,13 +179,16 @@ static void test_clipped(void **state) {
     double exposure = 7;
     for (int i = 0; i < 1000; i++) // 1, or in another channel 4, or 64
         rgb[3 * i + i % 3] = i % 10 ? 1 : i % 200 ? 4 : 64;
-    assert_true(fabs(image_clipped(&image, plain, &exposure) - 0.1) < 1e-12);
+    assert_true(fabs(image_clipped(&image, plain, 0.05, &exposure) - 0.1) < 1e-12);
     assert_true(fabs(exposure + 2) < 1e-9);
-    assert_true(image_clipped(&image, (struct image_display){.exposure = -2}, &exposure) < 0.0051);
-    assert_true(image_clipped(&image, (struct image_display){.exposure = 1}, &exposure) > 0.999);
+    assert_true(image_clipped(&image, (struct image_display){.exposure = 1}, 0.05, &exposure) == 1);
+    assert_true(fabs(exposure + 2) < 1e-9);
     exposure = 7;
-    assert_true(image_clipped(&image, (struct image_display){.tone = IR_TONE_NEUTRAL}, &exposure) == 0);
-    assert_true(image_clipped(&image, (struct image_display){.exposure = -6}, &exposure) == 0);
+    assert_true(image_clipped(&image, plain, 0.1, &exposure) == 0);
+    assert_true(image_clipped(&image, (struct image_display){.tone = IR_TONE_NEUTRAL}, 0.05, &exposure) == 0);
+    assert_true(image_clipped(&image, (struct image_display){.exposure = -6}, 0, &exposure) == 0);
+    image.rgb = NULL;
+    assert_true(image_clipped(&image, plain, 0.05, &exposure) == 0);
     assert_true(exposure == 7);
 }
 
