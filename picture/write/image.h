@@ -89,8 +89,8 @@ void image_to_displayed(const float *linear, size_t pixels, struct image_display
 
 // Of the pixels, the share of which a channel is cut off, being brighter than 1 by more than a byte's step,
 // and the exposure at which 99.5 % are not cut off. 0, with `exposure` as it was: it is at most `least`
-// (0.005 or more), the tone cuts nothing off, the pixels are not in memory (rgb is NULL), or there is no
-// memory.
+// (0.005 or more), the tone cuts nothing off, the pixels are not in memory (rgb is NULL), or none can be
+// allocated.
 double image_clipped(const struct image *image, struct image_display display, double least, double *exposure);
 
 // Texts are text chunks of a PNG, comments of a JPEG and in the head of an HDR, and attributes of an OpenEXR
